@@ -234,7 +234,7 @@ class Search {
 base::Problems missing_optimiser() {
   if (nlopt_calls()) return {};
   return {{"optimise", "", "needs NLopt, and libnlopt.so.0 cannot be loaded",
-           "install it: apt install libnlopt0"}};
+           "install the library: apt install libnlopt0"}};
 }
 
 std::optional<analysis::Optimum> optimise(const Optimisation& work) { return Search(work).run(); }

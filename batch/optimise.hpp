@@ -24,8 +24,8 @@ struct Optimisation {
   /// The drive of a point. Several threads may call it at the same time.
   std::function<base::Result<analysis::PlannedRun>(const std::vector<std::string>& point, std::size_t drive)>
       scenario;
-  /// A stored row, if there is one. `number` is the number of the evaluation times the number of drives, plus
-  /// the number of the drive. The row is used only if its point is the evaluated point.
+  /// Returns the stored row, if there is one. `number` = evaluation index * drives per point + drive index,
+  /// both from 0. A row of another point is not used.
   std::function<std::optional<analysis::RunRecord>(std::size_t number)> known;
   std::function<void(analysis::RunRecord&&)> take;        ///< receives each new row, from any thread
   std::function<void(std::size_t evaluations)> progress;  ///< receives the number of points tried so far

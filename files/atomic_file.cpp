@@ -76,7 +76,7 @@ base::Problems refused(const Destination& to, const std::string& partial) {
   for (const std::string& path : {to.path, partial})
     if (!to.force && is_foreign(path))
       return {{.where = path + ":",
-               .limit = "was not written by sixstep, or was changed after that",
+               .limit = "was not written by sixstep, or was changed after sixstep wrote it",
                .cure = "name another file, or add --force to replace it"}};
   struct stat unused {};
   if (::lstat(partial.c_str(), &unused) != 0 && errno == ENAMETOOLONG)
@@ -166,7 +166,7 @@ base::Result<AtomicFile> AtomicFile::create(const Destination& to) {
   if (exists && S_ISDIR(there.st_mode)) return unwritable(to.path, EISDIR);
   if (exists && S_ISBLK(there.st_mode))
     return base::Problem{
-        .where = to.path + ":", .limit = "is a whole disk", .cure = "name a file on this disk"};
+        .where = to.path + ":", .limit = "is a disk device, not a file", .cure = "name a file on this disk"};
   int descriptor = -1;
   if (exists && !S_ISREG(there.st_mode)) {
     descriptor = file.open_device();

@@ -31,13 +31,13 @@ base::Result<text::NamedText> loaded_from(const std::string& path, const std::st
   void* const object = dlopen(whole.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (object == nullptr) {
     const char* const why = dlerror();
-    return unloaded(whole, why ? why : "no reason is known");
+    return unloaded(whole, why ? why : "the system gives no reason");
   }
   using Own = const sixstep_controller* (*)();
   const auto own = reinterpret_cast<Own>(dlsym(object, symbol));
   if (own == nullptr) return unloaded(whole, std::string("it has no function ") + symbol);
   const sixstep_controller* const controller = own();
-  if (controller == nullptr) return unloaded(whole, std::string(symbol) + " answers a null pointer");
+  if (controller == nullptr) return unloaded(whole, std::string(symbol) + " returned a null pointer");
   if (base::Problems wrong = sixstep::study::check_controller(*controller); !wrong.empty()) {
     base::Problem& first = wrong.front();
     return base::Problem{.where = path, .limit = "has a controller whose " + to_string(first), .cure = {}};

@@ -71,8 +71,9 @@ void inside(const char* path, ControllerPlace place, const Work& work) {
 void must_be_whole(const ControllerThread& thread, const GuardedRoom& room, const char* what) {
   if (!room.is_whole()) end_by_controller(thread, what);
 }
-constexpr char beside_state[] = "wrote outside its state", beside_config[] = "wrote outside its config",
-               beside_answer[] = "wrote outside its answer";
+constexpr char beside_state[] = "wrote to memory outside its state",
+               beside_config[] = "wrote to memory outside its config",
+               beside_answer[] = "wrote to memory outside its answer";
 
 /// The interface has no argument that identifies the controller. Therefore each controller has its own
 /// functions, selected by its number N.
@@ -207,7 +208,7 @@ base::Result<const sixstep_controller*> guarded_controller(const std::string& pa
     return base::Problem{
         .where = path,
         .limit = fmt::format("exceeds the {} controllers that a program may load", loaded_controllers),
-        .cure = "run it in another process"};
+        .cure = "run the other controllers in another process"};
   take(controllers[loaded_controllers], path, real);
   show(loaded_controllers, controllers[loaded_controllers].shown,
        std::make_index_sequence<most_controllers>());

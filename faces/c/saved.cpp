@@ -134,8 +134,7 @@ sixstep_status loaded(std::span<const std::uint8_t> bytes, Session& session) {
   const Cbor in = Cbor::from_cbor(intact(bytes), true, false);
   std::optional<Parts> parts = parts_of(in);
   if (!parts) {
-    session.problems = {{"bytes", "",
-                         "are not a session that this version of the library saved, or are not complete",
+    session.problems = {{"bytes", "", "are not a complete session that this version of the library saved",
                          "load all bytes that sixstep_save() of version " SIXSTEP_VERSION " wrote"}};
     return SIXSTEP_REFUSED;
   }

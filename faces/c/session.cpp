@@ -157,7 +157,8 @@ sixstep_status Session::reached(bool goes_on) {
 
 sixstep_status Session::advance(double to_s) {
   if (const sixstep_status status = usable("sixstep_advance"); status != SIXSTEP_OK) return status;
-  if (std::isnan(to_s)) return refused({{"to_s", "nan", "must be an instant in seconds", "give a number"}});
+  if (std::isnan(to_s))
+    return refused({{"to_s", "nan", "must be a finite time in seconds", "give a number"}});
   const Exchanging here(exchange_);
   // The instant is limited. Beyond the run's end nothing changes, and a larger number could exceed the range
   // of an instant.
@@ -239,7 +240,8 @@ sixstep_status Session::change(std::string_view toml, double* at_s) {
       read(change_head + base::written(time_s()) + "\n" + std::string(toml) + "\n");
   if (!with) return refused(in_change(with.problems(), source_));
   if (with->at.empty())
-    return refused({{"toml", std::string(toml), "has no change", "give at least one key of [[at]]"}});
+    return refused(
+        {{"toml", std::string(toml), "has no change", "give at least one key that [[at]] may change"}});
   const std::int64_t now = now_ps();
   Session tried(*this);  // a refused change leaves this session as it is
   if (tried.ahead_)      // run_ must reach this instant too

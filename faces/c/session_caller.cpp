@@ -15,10 +15,9 @@ base::Problems lagging(const study::Scenario& s) {
   base::Problems out;
   const auto refuse = [&](bool lags, const char* key) {
     if (lags)
-      out.push_back(
-          {key, "",
-           "has no effect on the counts of sixstep_convert(), which are those of the present instant",
-           "remove it, or read measurements with sixstep_measure()"});
+      out.push_back({key, "",
+                     "has no effect on sixstep_convert(), which returns the counts of the present instant",
+                     "remove this key, or read measurements with sixstep_measure()"});
   };
   refuse(s.sensors.current_bandwidth_Hz.has_value(), "sensors.current_bandwidth_Hz");
   refuse(s.sensors.current_delay_s > 0.0, "sensors.current_delay_s");
@@ -34,7 +33,8 @@ sixstep_status Session::measure(sixstep_measured& measured, double* setpoint) {
     return misuse("sixstep_measure", "needs a session whose controller is the caller",
                   "open the session with SIXSTEP_CHIP_PAIR or SIXSTEP_CHIP_LEGS");
   if (!run_->at_tick())
-    return misuse("sixstep_measure", "needs a control tick", "call sixstep_advance_to_tick() before");
+    return misuse("sixstep_measure", "needs a control tick",
+                  "call sixstep_advance_to_tick() before this function");
   const Exchanging here(exchange_);
   run_->call_controller();
   measured = exchange_.measured;
@@ -58,8 +58,8 @@ sixstep_status Session::set_gates(std::uint32_t gates) {
     return misuse("sixstep_set_gates", "needs a session whose gates the caller sets",
                   "open the session with SIXSTEP_CHIP_GATES");
   if (gates > 0x3f)
-    return refused(
-        {{"gates", std::to_string(gates), "must be 0 to 63: one bit per switch", "clear all other bits"}});
+    return refused({{"gates", std::to_string(gates), "must be 0 to 63: one bit per switch",
+                     "clear all bits above bit 5"}});
   if (ahead_->over()) return SIXSTEP_OVER;
   const double at_s = time_s();
   const Exchanging here(exchange_);

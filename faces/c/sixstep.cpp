@@ -95,7 +95,8 @@ sixstep_status opened(Session& session, Source source, const sixstep_options* op
     std::memcpy(&is, options, options->bytes);
   }
   if (is.chip < SIXSTEP_CHIP_OF_SCENARIO || is.chip > SIXSTEP_CHIP_GATES)
-    return misplaced(session, "options.chip", "is none of sixstep_chip", "use SIXSTEP_CHIP_OF_SCENARIO");
+    return misplaced(session, "options.chip", "is not a value of sixstep_chip",
+                     "use SIXSTEP_CHIP_OF_SCENARIO");
   source.chip = is.chip;
   source.settings = settings_of(is.settings);
   if (is.data != nullptr) source.data_folder = is.data;
@@ -277,7 +278,8 @@ uint64_t sixstep_digest(const sixstep_session* session) {
 
 sixstep_status sixstep_measure(sixstep_session* session, sixstep_measured* measured, double* setpoint) {
   return with(session, [&](Session& s) {
-    if (measured == nullptr) return misplaced(s, "measured", "is null", "give a struct to fill");
+    if (measured == nullptr)
+      return misplaced(s, "measured", "is null", "give a pointer to a struct that the call fills");
     return s.measure(*measured, setpoint);
   });
 }
@@ -292,7 +294,8 @@ sixstep_status sixstep_set_gates(sixstep_session* session, uint32_t gates) {
 }
 sixstep_status sixstep_convert(sixstep_session* session, sixstep_counts* counts) {
   return with(session, [&](Session& s) {
-    if (counts == nullptr) return misplaced(s, "counts", "is null", "give a struct to fill");
+    if (counts == nullptr)
+      return misplaced(s, "counts", "is null", "give a pointer to a struct that the call fills");
     return s.convert(*counts);
   });
 }

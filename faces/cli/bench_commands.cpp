@@ -140,7 +140,7 @@ base::Result<std::optional<design::Sheet>> sheet_of(EmfArguments& a) {
     return base::Problem{
         "--pole-pairs", std::to_string(*a.pole_pairs),
         fmt::format("contradicts the {} pole pairs of {}", *of_sheet, text::visible(sheet->name)),
-        "leave out the less certain one: --pole-pairs or --motor"};
+        "leave out --pole-pairs or --motor: the option whose value is less certain"};
   if (of_sheet) a.pole_pairs = of_sheet;
   return std::optional(*sheet);
 }
@@ -213,7 +213,8 @@ void declare_common(CLI::App& verb, BenchArguments& a, const char* voltages) {
   verb.add_option(
       "--between", a.between,
       "points between which the voltages were measured: lines (two terminals) or star (a terminal and a common point)");
-  verb.add_option("--interval", a.interval_s, "time from row to row in s, if the file has no column of time");
+  verb.add_option("--interval", a.interval_s,
+                  "time from one row to the next in s, if the file has no column of time");
   verb.add_flag("--json", a.json, "print the results as JSON");
   verb.add_option("--html", a.html, "write a page with charts");
   take_force(verb, a.force);
@@ -224,7 +225,7 @@ void declare_common(CLI::App& verb, BenchArguments& a, const char* voltages) {
 
 Verb declare_identify(CLI::App& motor) {
   CLI::App& identify = *motor.add_subcommand(
-      "identify", "wires, spacing, positions and jitter of Hall probes, from a log of a turning motor");
+      "identify", "find wires, spacing, positions and jitter of Hall probes from a log of a turning motor");
   const auto a = std::make_shared<BenchArguments>();
   identify
       .add_option(
@@ -232,32 +233,34 @@ Verb declare_identify(CLI::App& motor) {
           "CSV file with time, Hall lines (hall1, hall2, hall3, or hall for their code) and, if recorded, voltages (u_ab, u_bc, also u_ca; or u_a, u_b, u_c)")
       ->required();
   identify
-      .add_option("--hall", a->columns.hall,
-                  "headings of the Hall lines, as CH1,CH2,CH3, or of one column of codes")
+      .add_option(
+          "--hall", a->columns.hall,
+          "headings of the three Hall lines, as CH1,CH2,CH3, or the heading of one column of Hall codes")
       ->delimiter(',');
   declare_common(identify, *a, "headings of the voltages, as CH4,CH5,CH6");
   identify.add_option(
       "--pole-pairs", a->pole_pairs,
       "locate each edge of a shaft turn separately. Default: the six edges of an electrical turn");
   identify.add_option("--write", a->write,
-                      "write the lines of a scenario, and the table for a user's firmware");
+                      "write the keys for a scenario, and the commutation table for a user's firmware");
   return {&identify, calling(identify_command, a)};
 }
 
 Verb declare_emf(CLI::App& motor) {
   CLI::App& emf = *motor.add_subcommand(
-      "emf", "constants, harmonics and shape of the back-EMF, from a recording of open terminals");
+      "emf", "compute constants, harmonics and shape of the back-EMF from a recording of open terminals");
   const auto a = std::make_shared<EmfArguments>();
-  emf.add_option("SCOPE", a->path, "CSV file with time and one to three voltages")->required();
+  emf.add_option("SCOPE", a->path, "CSV file with a column of time and one to three columns of voltages")
+      ->required();
   declare_common(emf, *a, "headings of the voltages, as CH1,CH2");
   emf.add_option("--pole-pairs", a->pole_pairs, "electrical turns per turn of the shaft");
-  emf.add_option("--speed", a->speed_rpm,
-                 "speed of the shaft, rpm; with the frequency it gives the pole pairs");
-  emf.add_option("--motor", a->motor, "compare with this motor's sheet, which also gives the pole pairs");
+  emf.add_option("--speed", a->speed_rpm, "speed of the shaft, rpm; speed and frequency give the pole pairs");
+  emf.add_option("--motor", a->motor,
+                 "motor whose sheet is compared with the recording; the sheet also gives the pole pairs");
   emf.add_option("--tolerance", a->tolerance_percent,
-                 "tolerance of the sheet's constants, percent. Default: 5");
+                 "largest deviation from the sheet's constants that counts as equal, percent. Default: 5");
   take_data(emf, a->data_dir);
-  emf.add_option("--write", a->write, "write the lines of a motor's file");
+  emf.add_option("--write", a->write, "write the keys for a motor file");
   emf.add_option("--shape", a->shape, "write the shape as a table that back_emf_file reads");
   return {&emf, [a](const std::string& command) {
             a->command = command;

@@ -34,7 +34,7 @@ base::Problems strangers(const RunArguments& a) {
     if (given)
       problems.push_back({.where = option,
                           .limit = "has no effect with --bode",
-                          .cure = "leave it out; the outputs of --bode are --html, --json and --csv"});
+                          .cure = "leave this option out; --bode writes only --html, --json and --csv"});
   };
   refuse("--out", !a.out.empty());
   refuse("--junit", !a.junit.empty());
@@ -49,7 +49,7 @@ base::Problems strangers(const RunArguments& a) {
     problems.push_back({.where = "--amplitude",
                         .value = fmt::format("{}", *a.amplitude),
                         .limit = "must be above 0",
-                        .cure = "give the multisine's peak in the mode's unit"});
+                        .cure = "give the multisine's peak, in the unit of control.mode"});
   return problems;
 }
 
@@ -87,7 +87,7 @@ base::Problems told(base::Problems problems, const std::string& name) {
   for (base::Problem& p : problems) {
     p.where = name + ": " + p.where;
     if (p.cure.starts_with("give an amplitude"))
-      p.cure = "give --amplitude in the mode's unit, or set a final reference other than zero";
+      p.cure = "give --amplitude in the unit of control.mode, or set a final reference other than zero";
   }
   return problems;
 }

@@ -101,13 +101,13 @@ Exit commission_command(const CommissionArguments& a) {
 
 Verb declare_commission(CLI::App& motor) {
   CLI::App& verb = *motor.add_subcommand(
-      "commission", "simulate how the drive measures its motor, and compare the results with the motor");
+      "commission", "simulate a drive that measures its motor, and compare the results with the motor file");
   const auto a = std::make_shared<CommissionArguments>();
   verb.add_option("MOTOR", a->motor, "name or path of a motor file")->required();
   verb.add_option("--voltage", a->voltage_V, "bus voltage, V. Default: the sheet's nominal voltage");
   verb.add_option(
       "--current", a->current_A,
-      "test current, A; the motor must withstand this current for seconds. Largest value: 0.41 U/R_s (U: bus "
+      "test current, A; the motor must withstand this current for some seconds. Largest value: 0.41 U/R_s (U: bus "
       "voltage, R_s: phase resistance), less for a salient rotor. Default: twice the nominal current, or a fifth of "
       "U/(2 R_s) if the sheet names no nominal current; at most half of the largest value");
   verb.add_option("--phases", a->phases,
@@ -115,9 +115,10 @@ Verb declare_commission(CLI::App& motor) {
       ->capture_default_str();
   verb.add_option("--wires", a->wires, "Hall probes at pins H1, H2, H3: 123, 231, 312, 132, 321 or 213")
       ->capture_default_str();
-  verb.add_option("--inverted", a->inverted, "pins that read their probe inverted: none, 1, 12 and so on")
+  verb.add_option("--inverted", a->inverted,
+                  "pins that read their probe inverted: none, 1, 2, 3, 12, 13, 23 or 123")
       ->capture_default_str();
-  verb.add_option("--offset", a->offset_deg, "offset of all Hall edges, electrical degrees")
+  verb.add_option("--offset", a->offset_deg, "angle by which all Hall edges come late, electrical degrees")
       ->capture_default_str();
   verb.add_option("--seed", a->seed, "seed of the converters' noise")
       ->check(CLI::Range(0, 1'000'000'000))

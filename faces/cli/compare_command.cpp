@@ -139,7 +139,7 @@ base::Problems lay_over(Log& log, const Compared& run) {
   study::Trace& trace = log.read.trace;
   if (const double start_s = analysis::start_shift_s(simulated, trace); start_s != 0.0) {
     log.read.notes.push_back(fmt::format(
-        "the log's clock starts at {:.10g} s, so that times are counted from its first row", -start_s));
+        "the log's clock starts at {:.10g} s; times are counted from the log's first row", -start_s));
     for (double& t : trace.values.front()) t += start_s;
   }
   const double period_s = run.scenario.pwm.period_s;
@@ -204,13 +204,13 @@ base::Problems check_comparison(const RunArguments& arguments) {
   if (with_log && (arguments.files.size() > 1 || !arguments.out.empty() || !page_alone))
     return {{.where = "--compare",
              .value = arguments.log.path,
-             .limit = "can be compared with one run only",
+             .limit = "can be compared with only one run",
              .cure = "name one scenario, and --html FILE as the only output"}};
   if (arguments.files.size() <= report::most_compared) return {};
   return {{.where = "--html",
            .value = fmt::format("{} files", arguments.files.size()),
            .limit = fmt::format("must be at most {}, the number of colours of a page", report::most_compared),
-           .cure = "compare fewer, or write one report each with --out DIR"}};
+           .cure = "compare fewer scenarios, or write a report for each scenario with --out DIR"}};
 }
 
 Exit compare_command(const RunArguments& arguments, const std::vector<Job>& jobs) {

@@ -36,7 +36,8 @@ Exit answer_shell(const CLI::App& app, const std::vector<std::string>& words) {
 }
 
 Verb declare_completion(CLI::App& app) {
-  CLI::App& completion = *app.add_subcommand("completion", "a script that completes commands in your shell");
+  CLI::App& completion =
+      *app.add_subcommand("completion", "print a script that completes commands in your shell");
   completion.footer(
       "In ~/.bashrc or ~/.zshrc: source <(sixstep completion bash), or zsh. In fish: "
       "sixstep completion fish | source\n");

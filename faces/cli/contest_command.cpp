@@ -151,8 +151,8 @@ Exit own_without_run(const analysis::Contest& contest) {
     const analysis::ContestEntry& entry = contest.entries[n];
     if (n < analysis::contestants().size() || entry.scenario) continue;
     complain(
-        {{"--own " + std::string(entry.who->name), "", "was not compared, so that its row has no figures",
-          "correct the problems in the next lines"}});
+        {{"--own " + std::string(entry.who->name), "", "was not run, so its row in the table has no figures",
+          "correct the problems that the next lines report"}});
     complain(entry.scenario.problems());
     exit = Exit::failed;
   }
@@ -200,9 +200,10 @@ base::Problems contest_contradictions(const ContestArguments& a) {
                         .limit = "continues the drives of a store, but no store is named",
                         .cure = "add --store FILE.sqlite"});
   if (!a.store.empty() && a.drives == 0)
-    problems.push_back({.where = "--store",
-                        .limit = "stores drives within the tolerances, but --runs 0 makes none",
-                        .cure = "leave out --store or --runs 0"});
+    problems.push_back(
+        {.where = "--store",
+         .limit = "stores drives within the tolerances, but with --runs 0 there are no such drives",
+         .cure = "leave out --store or --runs 0"});
   return problems;
 }
 
@@ -260,7 +261,8 @@ void declare_options(CLI::App& verb, ContestArguments& a) {
   verb.add_option(
       "--html", a.html,
       "write a page with pictures: the best controller for each figure, and each controller's response to the load");
-  verb.add_option("--write", a.write, "a folder for the scenario of each controller, for sixstep run");
+  verb.add_option("--write", a.write,
+                  "folder to which the scenario of each controller is written, for sixstep run");
   take_force(verb, a.force);
   take_data(verb, a.data_dir);
   take_jobs(verb, a.jobs);
@@ -271,7 +273,8 @@ void declare_options(CLI::App& verb, ContestArguments& a) {
 
 Verb declare_contest(CLI::App& app) {
   CLI::App& verb = *app.add_subcommand(
-      "compare", "compare controllers of one motor on one course; each is designed by its own rule");
+      "compare",
+      "compare controllers of one motor on one course; each controller is designed by its own rule");
   const auto a = std::make_shared<ContestArguments>();
   declare_options(verb, *a);
   return {&verb, calling(contest_command, a)};

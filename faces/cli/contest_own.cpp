@@ -48,7 +48,7 @@ void take_count(const std::string& file, Contestants& out, base::Problems& found
                                 [&](const auto& own) { return own.name == counted->controller; });
   if (who == out.all.end()) {
     found.push_back({"--own-cost " + file, '"' + counted->controller + '"', "is not a controller of --own",
-                     "also name that controller with --own, or remove its count"});
+                     "also name this controller with --own, or leave its --own-cost out"});
     return;
   }
   who->tick = out.texts.emplace_back(counted->cost.tick);

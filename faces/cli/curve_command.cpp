@@ -112,7 +112,7 @@ void refuse_chopping_without_use(const CurveArguments& a, double duty, base::Pro
        {std::pair{"--chopping", !a.chopping.empty()}, std::pair{"--pwm-period", a.pwm_period_s.has_value()}})
     if (given)
       problems.push_back({option, "", "has no effect at full duty, which needs no chopping",
-                          "give a --duty below 1, or leave it out"});
+                          "give a --duty below 1, or leave this option out"});
 }
 
 /// The option for a member: "--pwm-period" for pwm_period_s. The name of an option has no unit.
@@ -185,11 +185,12 @@ void declare_options(CLI::App& curve, CurveArguments& a) {
   curve.add_option("--pwm-period", a.pwm_period_s, "PWM period in s, for a duty below 1. Default: 30e-6");
   curve.add_option("--on-resistance", a.on_resistance_ohm, "on-resistance of a switch, ohm. Default: 0");
   curve.add_option("--diode-drop", a.diode_drop_V, "forward voltage of a diode, V. Default: 0");
-  curve.add_option("--points", a.points, "number of points from standstill to no load. Default: 41");
+  curve.add_option("--points", a.points, "number of speeds from standstill to no load. Default: 41");
   curve.add_option("--ambient", a.ambient_degC, "temperature of the air around the motor, degC. Default: 25");
-  curve.add_option("--winding", a.winding_degC, "temperature of the winding on the curve, degC. Default: 25");
+  curve.add_option("--winding", a.winding_degC,
+                   "winding temperature at which the curve is computed, degC. Default: 25");
   curve.add_option("--housing", a.housing_degC,
-                   "temperature of housing and magnets on the curve, degC. Default: 25");
+                   "temperature of housing and magnets at which the curve is computed, degC. Default: 25");
   curve.add_option("--csv", a.csv, "write all points with all columns");
   curve.add_option("--json", a.json,
                    "write all results as JSON; - writes to standard output instead of the table");
@@ -203,8 +204,8 @@ void declare_options(CLI::App& curve, CurveArguments& a) {
 }  // namespace
 
 Verb declare_curve(CLI::App& app) {
-  CLI::App& curve =
-      *app.add_subcommand("curve", "torque-speed curve of a motor; force over speed of a linear motor");
+  CLI::App& curve = *app.add_subcommand(
+      "curve", "compute the torque-speed curve of a motor; of a linear motor, force over speed");
   const auto a = std::make_shared<CurveArguments>();
   declare_options(curve, *a);
   return {&curve, calling(curve_command, a)};

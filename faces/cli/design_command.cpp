@@ -145,7 +145,7 @@ analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::S
   // drive.
   if (!carried.kept.empty() || !carried.lost.empty())
     for (design::Warning& w : s.warnings)
-      if (w.cure.starts_with("usable with")) w.cure += ", tried without the limits of the board's drive";
+      if (w.cure.starts_with("usable with")) w.cure += ", tested without the limits of the board's drive";
   // This warning does not change the verdict of a sensorless drive: the verdict is about the loops, and only
   // the drive's commutation is missing in the written file.
   if (!carried.lost.empty()) warn(carried.lost, board->control.drive != study::FirmwareKind::sensorless);
@@ -289,7 +289,7 @@ Exit design_command(const DesignArguments& a) {
 void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option("MOTOR", a.motor, "motor's name or file; with --scenario the scenario's motor");
   design.add_option("--scenario", a.scenario, "scenario whose motor, board and task the design uses");
-  design.add_option("--mode", a.mode, "current, speed or position. Default: current");
+  design.add_option("--mode", a.mode, "controlled quantity: current, speed or position. Default: current");
   design.add_option(
       "--settle", a.settle_s,
       "settling time of the mode's PI loop in s. Default for current: the shorter of 1e-3 and 8 L/R. Default for speed: 10e-3, or the shortest time that sensor and torque allow");
@@ -297,10 +297,12 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option(
       "--current-settle", a.current_settle_s,
       "speed, position: settling time of the current loop in s. Default: the shortest of 1e-3, 8 L/R and a tenth of the speed loop's settling time");
-  design.add_option("--method", a.method, "pole-placement, cancellation or symmetrical-optimum")
+  design
+      .add_option("--method", a.method,
+                  "rule for the gains: pole-placement, cancellation or symmetrical-optimum")
       ->capture_default_str();
   design.add_option("--bandwidth", a.bandwidth_rad_s,
-                    "cancellation, symmetrical-optimum: bandwidth of the loop, in rad/s");
+                    "cancellation, symmetrical-optimum: bandwidth of the mode's loop, in rad/s");
   design.add_option("--period", a.period_s, "control and PWM period in s. Default: 30e-6");
   design.add_option("--voltage", a.voltage_V, "bus voltage in V. Default: the sheet's nominal voltage");
   design.add_option(
@@ -308,7 +310,8 @@ void declare_options(CLI::App& design, DesignArguments& a) {
       "speed, position: torque limit in N m. Default: the torque of 2.5 times the nominal current");
   design.add_option("--force-limit", a.force_limit_N,
                     "linear motor, instead of --torque-limit: force limit in N");
-  design.add_option("--rotor", a.rotor, "hall, encoder, absolute, resolver or ideal. Default: hall");
+  design.add_option("--rotor", a.rotor,
+                    "rotor position sensor: hall, encoder, absolute, resolver or ideal. Default: hall");
   design.add_option(
       "--edges", a.edges,
       "speed, position: number of Hall edges over which a speed is averaged, 1 to 6. Default: 6 or 1, adaptive");
@@ -318,21 +321,23 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   design.add_option(
       "--lowest-speed", a.lowest_speed_rad_s,
       "speed, position: lowest speed that the loop must control, in rad/s or m/s. Default: a tenth of the speed that the bus allows");
-  design.add_option("--currents", a.currents, "phases, dc-link, low-side or ideal. Default: phases");
+  design.add_option("--currents", a.currents,
+                    "current sensor: phases, dc-link, low-side or ideal. Default: phases");
   design.add_option("--load-inertia", a.load_inertia_kg_m2,
                     "speed, position: inertia on the shaft besides the rotor's, in kg m2. Default: 0");
   design.add_option("--load-mass", a.load_mass_kg,
                     "linear motor, instead of --load-inertia: mass on the slide, in kg. Default: 0");
-  design.add_option("--delay", a.delay_periods, "periods until a command takes effect, 0 or 1. Default: 1");
-  design.add_option("--chopping", a.chopping, "soft, hard or complementary. Default: soft");
+  design.add_option("--delay", a.delay_periods,
+                    "control periods until a command takes effect, 0 or 1. Default: 1");
+  design.add_option("--chopping", a.chopping, "chopping: soft, hard or complementary. Default: soft");
   design.add_option("--step", a.step, "simulated step, in the mode's unit: A, rad/s (m/s) or deg (mm)");
   design.add_option("--json", a.json, "write all numbers as JSON; - writes to standard output");
   design.add_option(
       "--toml", a.toml,
       "write the simulated scenario, for sixstep run and export; without --scenario the dead time is 0.5 us");
-  design.add_option("--html", a.html, "write the design as a page");
-  CLI::Option* models =
-      design.add_option("--models", a.models, "write the motor's two state spaces, as .json or .mat");
+  design.add_option("--html", a.html, "write the design as an HTML page");
+  CLI::Option* models = design.add_option(
+      "--models", a.models, "write the motor's two state-space models, to a .json or .mat file");
   design.add_option("--angle", a.angle_deg, "angle of the rotor for --models, in electrical degrees")
       ->capture_default_str()
       ->needs(models);
@@ -342,7 +347,7 @@ void declare_options(CLI::App& design, DesignArguments& a) {
   take_store(design, a.store, "store each run of --optimise in this SQLite file")->needs(optimise);
   design.add_flag("--resume", a.resume, "continue the runs of --store")->needs("--store");
   take_force(design, a.force);
-  design.add_flag("--quick", a.quick, "do not simulate the tolerances");
+  design.add_flag("--quick", a.quick, "do not simulate the motors within the tolerances");
   design.add_flag("--quiet", a.quiet, "print errors only");
   for (const auto& [option, unit] :
        {std::pair{"--settle", "s"}, std::pair{"--current-settle", "s"}, std::pair{"--period", "s"},
@@ -357,8 +362,8 @@ void declare_options(CLI::App& design, DesignArguments& a) {
 }  // namespace
 
 Verb declare_design(CLI::App& app) {
-  CLI::App& design =
-      *app.add_subcommand("design", "gains from a motor's sheet, simulated over its tolerances");
+  CLI::App& design = *app.add_subcommand(
+      "design", "compute gains from a motor's sheet, and simulate motors within the sheet's tolerances");
   const auto a = std::make_shared<DesignArguments>();
   declare_options(design, *a);
   return {&design, calling(design_command, a)};

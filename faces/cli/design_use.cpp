@@ -13,9 +13,9 @@ namespace cli {
 namespace {
 
 constexpr const char* in_scenario =
-    "set the value in the scenario, in [control], [pwm], [supply], [sensors] or [load]";
+    "set the value in the scenario: in [control], [pwm], [supply], [sensors] or [load]";
 constexpr const char* by_bandwidth = "set control.field.bandwidth_Hz in the scenario";
-constexpr const char* not_written = "leave it out: --json has all numbers";
+constexpr const char* not_written = "leave this option out: --json has all numbers";
 
 struct Use {
   const char* option;
@@ -30,8 +30,8 @@ using A = DesignArguments;
 
 /// All options except --force, --quiet, --jobs, --data and the options of --optimise.
 constexpr Use uses[] = {
-    {"MOTOR", [](const A& a) { return !a.motor.empty(); }, "", "leave it out: the scenario names its motor",
-     false},
+    {"MOTOR", [](const A& a) { return !a.motor.empty(); }, "",
+     "leave this option out: the scenario names its motor", false},
     {"--scenario", [](const A& a) { return !a.scenario.empty(); }, "", nullptr, false},
     {"--mode", [](const A& a) { return a.mode.has_value(); }, "mode", in_scenario, false},
     {"--method", [](const A& a) { return a.method != A{}.method; }, "method", by_bandwidth, false},
@@ -58,11 +58,11 @@ constexpr Use uses[] = {
     {"--load-mass", [](const A& a) { return a.load_mass_kg.has_value(); }, "load_inertia_kg_m2", in_scenario,
      false},
     {"--lowest-speed", [](const A& a) { return a.lowest_speed_rad_s.has_value(); }, "lowest_speed_rad_s",
-     "leave it out: the lowest speed of the reference is used", false},
+     "leave this option out: the lowest speed of the reference is used", false},
     {"--step", [](const A& a) { return a.step.has_value(); }, "",
-     "leave it out: this design simulates nothing; use sixstep run", false},
+     "leave this option out: this design simulates nothing; use sixstep run", false},
     {"--quick", [](const A& a) { return a.quick; }, "",
-     "leave it out: this design is computed in closed form, without tolerances", false},
+     "leave this option out: this design is computed in closed form, without tolerances", false},
     {"--json", [](const A& a) { return !a.json.empty(); }, "", nullptr, true},
     {"--toml", [](const A& a) { return !a.toml.empty(); }, "", not_written, true},
     {"--html", [](const A& a) { return !a.html.empty(); }, "", not_written, false},
@@ -116,7 +116,7 @@ base::Problems unread_by_optimise(const DesignArguments& a) {
     if (!use.in_optimise && use.given(a))
       found.push_back({use.option, "",
                        "applies to a single design, and --optimise reads this value from the plan",
-                       "leave it out, or set the value in the plan or its scenario"});
+                       "leave this option out, or set the value in the plan or its scenario"});
   return found;
 }
 

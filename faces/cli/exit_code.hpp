@@ -40,7 +40,7 @@ inline constexpr ExitMeaning exit_meanings[] = {
     {Exit::quit, "ended by SIGQUIT"},
     {Exit::reader_gone, "the reader of the pipe has ended"},
     {Exit::terminated, "ended by SIGTERM"},
-    {Exit::out_of_time, "ended by SIGXCPU at its limit of processor time"},
+    {Exit::out_of_time, "ended by SIGXCPU at the limit of processor time"},
 };
 
 /// Exit code of a run that reached its end or a fault.

@@ -102,8 +102,9 @@ base::Result<study::Scenario> scenario_of(const ExportArguments& a) {
   const std::optional<study::Arithmetic> arithmetic = arithmetic_of(a.arithmetic, problems);
   const files::ReadOptions options = read_options(a.data_dir, a.sets, problems);
   if (a.despite && a.despite->find_first_not_of(" \t\r\n") == std::string::npos)
-    problems.push_back({"--despite", "", "gives no reason",
-                        "give the reason for writing the header anyway; the header quotes it"});
+    problems.push_back(
+        {"--despite", "", "gives no reason",
+         "give the reason for which you write the header anyway; the header quotes this reason"});
   if (!problems.empty()) return problems;
   base::Result<study::Scenario> scenario = files::read_scenario(a.file, options);
   if (!scenario) return scenario;
@@ -217,29 +218,29 @@ void declare_options(CLI::App& header, ExportArguments& a) {
   header
       .add_option(
           "--range", a.ranges,
-          "fixed point: largest measured or requested value, as --range current_A=20; also speed_rad_s, "
-          "position_deg, bus_V, setpoint. Default: twice the requested or limiting current, and the speed that the bus allows")
+          "fixed point: largest value that the drive measures or receives, as --range current_A=20; also for speed_rad_s, position_deg, bus_V and setpoint. Default: twice the requested or limiting current, and the speed that the bus allows")
       ->allow_extra_args(false);
   take_sets(header, a.sets);
   header.add_option("--namespace", a.name_space, "C++ namespace of the header's declarations")
       ->capture_default_str();
   header.add_option(
       "--despite", a.despite,
-      "write the header although its run fails or neglects effects of a real board; the header states this reason and the findings that it overrides");
-  header.add_flag("--single-header", a.single_header, "include sixstep_control.hpp, not sixstep/control/");
+      "write the header although the run fails or neglects effects of a real board; the header states this reason and the findings that the reason overrides");
+  header.add_flag("--single-header", a.single_header,
+                  "include the single header sixstep_control.hpp instead of the folder sixstep/control/");
   take_data(header, a.data_dir);
 }
 
 }  // namespace
 
 Verb declare_export(CLI::App& app) {
-  CLI::App& exports = *app.add_subcommand("export", "export of a scenario's drive");
+  CLI::App& exports = *app.add_subcommand("export", "export a scenario's drive");
   exports.require_subcommand(1);
   const auto a = std::make_shared<ExportArguments>();
   declare_options(
       *exports.add_subcommand(
           "header",
-          "gains and scalings as constants for firmware, in C++20, if the run holds every requirement"),
+          "write gains and scalings as constants for firmware, in C++20, if the run meets every requirement"),
       *a);
   const Verb unit = declare_unit_export(exports);
   const auto header = calling(export_header, a);

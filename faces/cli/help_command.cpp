@@ -147,8 +147,9 @@ Exit help_command(const CLI::App& app, const std::string& key) {
   if (near.empty() && is_word) {
     const std::string text = with_word(scenario, key) + with_word(sheet, key) + with_word(plan, key);
     if (!text.empty()) {
-      print(fmt::format("No key has the name {}. Keys and words with this word in their name or meaning:\n",
-                        text::visible(key)) +
+      print(fmt::format(
+                "No key has the name {}. Keys and values that contain this word in their name or meaning:\n",
+                text::visible(key)) +
             text);
       return Exit::ok;
     }
@@ -184,7 +185,8 @@ Exit help_of_words(const CLI::App& app, const std::vector<std::string>& words) {
 Verb declare_help(CLI::App& app) {
   CLI::App& help = *app.add_subcommand("help", "explain a key, a table, a command, or all keys");
   const auto words = std::make_shared<std::vector<std::string>>();
-  help.add_option("KEY", *words, "as supply.voltage_V, pwm or resistance_ohm; or a command's words")
+  help.add_option("KEY", *words,
+                  "key or table, such as supply.voltage_V, pwm or resistance_ohm; or the words of a command")
       ->expected(0, 3);
   return {&help, [&app, words](const std::string&) { return help_of_words(app, *words); }};
 }

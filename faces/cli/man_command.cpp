@@ -9,7 +9,7 @@
 namespace cli {
 
 Verb declare_man(CLI::App& app) {
-  CLI::App& man = *app.add_subcommand("man", "the manual page, for man -l -");
+  CLI::App& man = *app.add_subcommand("man", "print the manual page, for man -l -");
   return {&man, [&app](const std::string&) {
             print(man_page(app));
             return Exit::ok;

@@ -110,7 +110,7 @@ base::Result<std::string> new_motor_text(const MotorArguments& a) {
   const std::string name = stem.empty() ? "my motor" : stem;
   if (a.from.empty()) {
     if (a.answers.empty()) return text::motor_template(a.style, name);
-    return base::Problem{"--answer", a.answers.front(), "answers a question of --from FILE",
+    return base::Problem{"--answer", a.answers.front(), "answers a question about the file of --from",
                          "name that file"};
   }
   const base::Result<std::string> read = files::read_regular_text(a.from);
@@ -136,8 +136,8 @@ Exit new_motor(const MotorArguments& a) {
     complain(problems);
     return Exit::bad_input;
   }
-  print("wrote " + text::visible(path) + "; fill it in, then: sixstep motor check " + text::shell_word(path) +
-        "\n");
+  print("wrote " + text::visible(path) + "; replace each nan in this file, then: sixstep motor check " +
+        text::shell_word(path) + "\n");
   return Exit::ok;
 }
 
@@ -149,7 +149,7 @@ Verb declare_motor(CLI::App& app) {
   const auto a = std::make_shared<MotorArguments>();
   CLI::App& list = *motor.add_subcommand("list", "list the built-in motors, one per line");
   CLI::App& show =
-      *motor.add_subcommand("show", "show the sheet as printed, and the model that follows from it");
+      *motor.add_subcommand("show", "show the sheet as printed, and the model that follows from the sheet");
   CLI::App& check = *motor.add_subcommand("check", "report values of the sheet that contradict each other");
   for (CLI::App* const verb : {&show, &check}) {
     verb->add_option("NAME", a->name, "name or path")->required();
@@ -157,8 +157,8 @@ Verb declare_motor(CLI::App& app) {
   }
   for (CLI::App* const verb : {&list, &show, &check})
     verb->add_flag("--json", a->json, "print the results as JSON");
-  CLI::App& fresh =
-      *motor.add_subcommand("new", "write a motor file to be filled in, or taken over from another program");
+  CLI::App& fresh = *motor.add_subcommand(
+      "new", "write a motor file to be filled in, or import the motor from another program");
   fresh.add_option("NAME", a->name, "file to write, NAME.toml. Default: standard output");
   CLI::Option* const style =
       fresh

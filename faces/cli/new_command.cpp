@@ -111,7 +111,7 @@ Exit new_command(const NewArguments& a) {
     print(fmt::format("note: {}\n", note));
   if (scenario->pwm.period_s < text::stm32_least_period_s)
     print(fmt::format(
-        "note: {}. The ripple of this winding needs this period; a choke in each motor lead, added to the sheet's inductance, allows a longer one\n",
+        "note: {}. The current ripple of this winding requires this period; a choke in each motor lead, added to the sheet's inductance, allows a longer period\n",
         text::too_short_for_images(scenario->pwm.period_s)));
   return Exit::ok;
 }
@@ -119,14 +119,14 @@ Exit new_command(const NewArguments& a) {
 }  // namespace
 
 Verb declare_new(CLI::App& app) {
-  CLI::App& fresh = *app.add_subcommand("new", "write a scenario to start from, each line explained");
+  CLI::App& fresh = *app.add_subcommand("new", "write a scenario to start from, with a comment on each line");
   const auto a = std::make_shared<NewArguments>();
   fresh.add_option("NAME", a->name, "file to write, NAME.toml. Default: standard output");
   fresh.add_option("--mode", a->mode, "controlled quantity: speed, current, position or duty")
       ->capture_default_str();
   fresh.add_option("--motor", a->motor, "motor's name or file")->capture_default_str();
   fresh.add_option("--voltage", a->voltage_V, "bus voltage in V. Default: the sheet's nominal voltage");
-  fresh.add_flag("--full", a->full, "write all keys, not only the keys of a first scenario");
+  fresh.add_flag("--full", a->full, "write all keys instead of only the keys of a first scenario");
   take_data(fresh, a->data_dir);
   return {&fresh, calling(new_command, a)};
 }

@@ -73,15 +73,15 @@ base::Problems not_to_be_chosen(const OptimiseArguments& a, const analysis::Plan
 #include "sixstep/analysis/verify/robust.hpp"
     if (!axis.values.empty())
 #include "sixstep/analysis/verify/robust.hpp"
-      problems.push_back({a.plan + ": " + axis.key, "", "is a list, and --optimise needs ranges",
+      problems.push_back({a.plan + ": " + axis.key, "", "is a list of values, but --optimise needs ranges",
 #include "sixstep/analysis/verify/robust.hpp"
-                          "give from and to, or write a plan for each value"});
+                          "give from and to instead of values, or write a plan for each value"});
 #include "sixstep/analysis/verify/robust.hpp"
     if (axis.strays)
 #include "sixstep/analysis/verify/robust.hpp"
       problems.push_back({a.plan + ": " + axis.key, "", "is drawn by [[spread]] and cannot be chosen",
 #include "sixstep/analysis/verify/robust.hpp"
-                          "move it into [[spread]] of the scenario"});
+                          "move the key into [[spread]] of the scenario"});
 #include "sixstep/analysis/verify/robust.hpp"
   }
 #include "sixstep/analysis/verify/robust.hpp"

@@ -92,7 +92,7 @@ class MadePlan {
   std::string beyond() const {
     if (beyond_ == 0) return "";
     return fmt::format(
-        "{}: contains {} more run{} than the {} of this plan; request more runs to include them\n",
+        "{}: contains {} more run{} than the {} of this plan; request more runs to include these runs\n",
         text::visible(store_.path()), beyond_, beyond_ == 1 ? "" : "s",
         analysis::runs_of(plan_.scenarios->plan()));
   }
@@ -262,7 +262,7 @@ base::Problems plan_contradictions(const RunArguments& a) {
   if (a.watch)
     problems.push_back({.where = "--watch",
                         .limit = "repeats one scenario, and this is a plan of many runs",
-                        .cure = "leave it out, or watch one run with --only N"});
+                        .cure = "leave --watch out, or watch one run with --only N"});
   const bool both = compares(a);
   if (both && a.files.size() > report::most_plans_on_a_page)
     problems.push_back({.where = "--html",

@@ -56,7 +56,7 @@ base::Problems add_options(const RunArguments& a, analysis::Plan& plan) {
     plan.sampling = analysis::Sampling::sobol;
   if (a.plan.points > 0 && plan.sampling == analysis::Sampling::grid)
     problems.push_back({"--points", std::to_string(a.plan.points),
-                        "applies to drawn points only; in a grid each range has its own number",
+                        "applies only to drawn points; in a grid each range has its own number of points",
                         "write --vary KEY=FROM:TO:POINTS, or leave out --sampling grid"});
   for (const analysis::Axis& axis : plan.axes)
     for (const std::string& set : a.sets)
@@ -105,7 +105,7 @@ std::uint64_t inputs_digest(const files::ReadLog& log, const RunArguments& a, bo
 base::Problems without_drives(const RunArguments& a, const analysis::Plan& plan) {
   if (!a.plan.tolerances || plan.drives > 0) return {};
   return {{.where = "--tolerances",
-           .limit = "needs several drives, and this plan runs only the drive as written",
+           .limit = "needs several drives, but this plan runs only the drive as written",
            .cure = "give the number of drives, for example --runs 1000"}};
 }
 

@@ -210,10 +210,10 @@ std::vector<std::string_view> core_names() {
 void declare_plan_options(CLI::App& run, PlanArguments& a) {
   run.add_option("--vary", a.vary, "KEY=FROM:TO:POINTS, or KEY=VALUE,VALUE; several options make a grid");
   run.add_option("--sampling", a.sampling,
-                 "arrangement of the points: grid, latin-hypercube, sobol, monte-carlo, saltelli");
+                 "arrangement of the points: grid, latin-hypercube, sobol, monte-carlo or saltelli");
   run.add_option(
          "--points", a.points,
-         "number of points; in a grid each range has its own number, saltelli runs points x (keys + 2)")
+         "number of points; in a grid each range has its own number of points; saltelli makes points x (keys + 2) runs")
       ->check(integer_in(1, 1'000'000'000));
   run.add_flag(
       "--tolerances", a.tolerances,
@@ -246,7 +246,7 @@ void declare_options(CLI::App& run, RunArguments& a) {
   // Checked as a signed number, because an unsigned parser would read -1 as a large number.
   const CLI::Validator whole = integer_in(0, std::numeric_limits<std::int64_t>::max());
   run.add_option("--seed", a.seed, "seed of the series of drives. Default: 1")->check(whole);
-  run.add_option("--drive", a.drive, "only drive N of the series, with all its outputs")
+  run.add_option("--drive", a.drive, "run only drive N of the series, with all outputs of a single run")
       ->excludes(runs)
       ->check(whole);
   CLI::Option* bode = run.add_flag(
@@ -259,7 +259,7 @@ void declare_options(CLI::App& run, RunArguments& a) {
   run.add_option(
          "--on", a.on,
          fmt::format(
-             "core that runs the drive, in an emulator: {}; or MAP.toml, a map that names the firmware",
+             "core that runs the drive in an emulator: {}; or MAP.toml, a firmware map that names your own firmware",
              fmt::join(core_names(), ", ")))
       ->excludes(bode)
       ->excludes(runs);

@@ -83,11 +83,11 @@ base::Problems same_outputs(const RunArguments& arguments) {
     if (other->first == "index")
       problems.push_back({.where = place(file),
                           .limit = "would write index.html, which lists all reports",
-                          .cure = "rename this file, or run it without --out"});
+                          .cure = "rename this file, or run the file without --out"});
     if (!is_new)
       problems.push_back({.where = place(file),
                           .limit = fmt::format("would write the same outputs as {}", other->second),
-                          .cure = "rename one of the files, or run them one by one"});
+                          .cure = "rename one of the files, or run the files one by one"});
   }
   std::vector<std::pair<std::string, std::string>> files = arguments.paths.files();
   files.emplace_back("--junit", arguments.junit);

@@ -21,7 +21,7 @@ Exit print_schema(const std::string& kind) {
 }  // namespace
 
 Verb declare_schema(CLI::App& app) {
-  CLI::App& schema = *app.add_subcommand("schema", "the keys of a file as JSON Schema, for editors");
+  CLI::App& schema = *app.add_subcommand("schema", "print the keys of a file as JSON Schema, for editors");
   const auto kind = std::make_shared<std::string>("scenario");
   schema.add_option("KIND", *kind, "scenario, motor or plan")->capture_default_str();
   return {&schema, [kind](const std::string&) { return print_schema(*kind); }};

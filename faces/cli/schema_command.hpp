@@ -14,7 +14,7 @@ inline constexpr sixstep::base::Choice<Schema> schema_kinds[] = {
     {"motor", text::motor_schema, "of a motor file"},
     {"plan", text::plan_schema, "of a plan: many runs"}};
 
-/// `sixstep schema [scenario|motor|plan]`: the keys of a file as JSON Schema, for editors.
+/// `sixstep schema [scenario|motor|plan]`: print the keys of a file as JSON Schema, for editors.
 Verb declare_schema(CLI::App& app);
 
 }  // namespace cli

@@ -47,7 +47,7 @@ Exit exit_after_printing(Exit exit) {
   if (unprinted == EPIPE) return exit == Exit::ok ? Exit::reader_gone : exit;
   complain({{.where = "standard output:",
              .limit = std::string("cannot be written: ") + std::strerror(unprinted),
-             .cure = "send the output to a file or a program that can accept it"}});
+             .cure = "send the output to a file with free space, or to a program that reads all lines"}});
   return graver(exit, Exit::bad_input);
 }
 

@@ -116,18 +116,19 @@ std::string archive_of(const UnitParts& parts, int fmi) {
 /// Reads which part sets the gates of the unit.
 base::Result<text::FmiChip> unit_chip_of(const UnitArguments& a) {
   if (a.kind != "drive" && a.kind != "plant")
-    return base::Problem{"--kind", a.kind, "must be drive or plant",
-                         "use drive for a unit with the controller, or plant for a unit without it"};
+    return base::Problem{
+        "--kind", a.kind, "must be drive or plant",
+        "use drive for a unit with the controller, or plant for a unit without the controller"};
   if (a.kind == "drive") {
     if (a.inputs.empty()) return text::FmiChip::of_scenario;
     return base::Problem{"--inputs", a.inputs, "has no effect on a unit of the kind drive",
-                         "add --kind plant, or leave it out"};
+                         "add --kind plant, or leave this option out"};
   }
   if (a.inputs.empty() || a.inputs == "gates") return text::FmiChip::gates;
   if (a.inputs == "pair") return text::FmiChip::pair;
   if (a.inputs == "legs") return text::FmiChip::legs;
   return base::Problem{"--inputs", a.inputs, "must be gates, pair or legs",
-                       "use the inputs of the plant's bridge"};
+                       "use gates (six switches), pair (driven pair and duty) or legs (three legs)"};
 }
 
 base::Result<UnitParts> unit_parts_of(const UnitArguments& a, int fmi) {
@@ -171,13 +172,15 @@ Exit export_unit(const UnitArguments& a) {
 Verb declare_unit_export(CLI::App& exports) {
   CLI::App& unit = *exports.add_subcommand(
       "fmu",
-      "the drive, or its plant, as a functional mock-up unit for co-simulation, for every program that imports FMI");
+      "write the drive, or only its plant, as a functional mock-up unit for co-simulation, for programs that import FMI");
   const auto a = std::make_shared<UnitArguments>();
   unit.add_option("SCENARIO", a->file, "scenario file")->required();
-  unit.add_option("--out", a->out, "the file to write, such as drive.fmu")->required();
+  unit.add_option("--out", a->out, "file to write, such as drive.fmu")->required();
   take_force(unit, a->force);
   unit.add_option("--fmi", a->fmi, "version of FMI: 2 or 3")->capture_default_str();
-  unit.add_option("--kind", a->kind, "drive: with its controller; plant: motor, bridge and sensors alone")
+  unit.add_option(
+          "--kind", a->kind,
+          "contents of the unit: drive (with the controller) or plant (only motor, bridge and sensors)")
       ->capture_default_str();
   unit.add_option("--inputs", a->inputs, "inputs of a plant's bridge: gates, pair or legs. Default: gates");
   take_sets(unit, a->sets);

@@ -12,12 +12,12 @@ void take_data(CLI::App& verb, std::string& folder) {
 }
 
 void take_sets(CLI::App& verb, std::vector<std::string>& sets) {
-  verb.add_option("--set", sets, "key=value, which overrides the file: --set supply.voltage_V=12")
+  verb.add_option("--set", sets, "key=value that overrides the file's value, as --set supply.voltage_V=12")
       ->allow_extra_args(false);
 }
 
 void take_force(CLI::App& verb, bool& force) {
-  verb.add_flag("--force", force, "also replace files that sixstep has not written");
+  verb.add_flag("--force", force, "replace also files that sixstep did not write");
 }
 
 void take_jobs(CLI::App& verb, unsigned& jobs, const std::string& what) {

@@ -113,8 +113,8 @@ Exit wiring_command(const WiringArguments& a) {
 }  // namespace
 
 Verb declare_wiring(CLI::App& motor) {
-  CLI::App& wiring =
-      *motor.add_subcommand("wiring", "behaviour of the motor in each of the 36 wirings, and the cures");
+  CLI::App& wiring = *motor.add_subcommand(
+      "wiring", "simulate the motor in each of the 36 wirings, and show the wires to move");
   const auto a = std::make_shared<WiringArguments>();
   wiring.add_option("MOTOR", a->motor, "name or path of a motor file")->required();
   wiring.add_option("--voltage", a->voltage_V, "bus voltage, V. Default: the sheet's nominal voltage");

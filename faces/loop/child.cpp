@@ -93,7 +93,7 @@ base::Result<Child> Child::start(const Command& command) {
   if (id < 0)
     return base::Problem{command.words.front(), "",
                          std::string("cannot be started: ") + std::strerror(failed),
-                         "end other programs, and try again"};
+                         "end other programs, and run the command again"};
   return Child(id);
 }
 

@@ -10,7 +10,7 @@ base::Result<std::unique_ptr<Chip>> Chip::start(const Core& core, const std::str
   if (!talk) return talk.problems();
   if (!made->understood())
     return base::Problem{core.emulator.front(), "", "was built from another version than this program",
-                         "build both from the same sources"};
+                         "build both programs from the same sources"};
   made->talk_.emplace(std::move(*talk));
   return made;
 }

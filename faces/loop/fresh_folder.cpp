@@ -40,7 +40,7 @@ base::Result<FreshFolder> FreshFolder::make() {
   if (!cleaner) return cleaner.problems();
   if (::mkdir(path.c_str(), 0700) != 0)
     return base::Problem{path, "", std::string("cannot be made: ") + std::strerror(errno),
-                         "set TMPDIR to a folder that can be written to"};
+                         "set TMPDIR to a folder in which you may write"};
   return FreshFolder(path, std::move(*cleaner), std::move(life.write));
 }
 

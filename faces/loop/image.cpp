@@ -128,7 +128,7 @@ base::Problems carried_out(const Core& core, const Words& words, const fs::path&
   if (status == 0) return {};
   const std::string why = status ? complaint_in(log) : "took more than five minutes";
   return {{words.front(), "", "could not compile the drive for " + std::string(core.title) + ": " + why,
-           "please report it with the scenario file"}};
+           "report this message, with the scenario file, in the issues of the repository"}};
 }
 
 /// Problems of all missing programs, reported together before the compilation.

@@ -28,7 +28,7 @@ base::Result<Core> own_firmware(const std::string& path, const std::string& text
   std::error_code none;
   if (!fs::is_regular_file(elf, none))
     return base::Problem{path + ": elf", map->elf, "is no file",
-                         "build the firmware first, or name the ELF file that its linker wrote"};
+                         "build the firmware first, or name the ELF file that the linker wrote"};
   const std::span<const Core> known = cores();
   const auto avr =
       std::find_if(known.begin(), known.end(), [](const Core& core) { return core.by_registers; });

@@ -90,7 +90,7 @@ struct PlanStore::Inside {
       return {
           {db.path() + ":", "",
            fmt::format("cannot store run {}: its columns differ from the columns of the plan", row->number),
-           "this is a defect of sixstep: please report it with the command"}};
+           "this is a defect of sixstep: report this message, with the command, in the issues of the repository"}};
     std::vector<Cell> cells = cells_of(row);
     cells.emplace_back(static_cast<std::int64_t>(checksum_of(cells, begin_of_checksums)));
     for (std::size_t n = 0; n < cells.size(); ++n) insert->bind_cell(static_cast<int>(n) + 1, cells[n]);
@@ -230,14 +230,14 @@ base::Result<PlanStore> PlanStore::resume(const std::string& path, StoredPlan pl
   if (before.sixstep != now.sixstep)
     return refuse("was begun by sixstep " + before.sixstep + ", but this is " + now.sixstep +
                       "; rows of two versions cannot be distinguished",
-                  "finish the runs with that version, or start again (force)");
+                  "finish the runs with the other version, or start again (force)");
   if (before.plan != now.plan)
     return refuse("contains the runs of another plan: " + before.plan,
                   "name another store for this plan: " + now.plan);
   if (before.inputs != now.inputs || *before.columns != *now.columns)
     return refuse("contains runs of a scenario that has changed since then: " + before.scenario +
                       " or a file that it names",
-                  "name another store, or overwrite this one (force)");
+                  "name another store, or overwrite this store (force)");
   // Messages name columns as the plan does, not as the file does.
   store->inside_->plan = std::move(plan);
   if (base::Problems wrong = store->inside_->begin(); !wrong.empty()) return wrong;

@@ -7,7 +7,7 @@ base::Result<Database> Database::open(const std::string& path) {
   if (!sqlite_calls())
     return base::Problem{path.empty() ? "the rows of the runs" : path + ":", "",
                          "needs SQLite, and libsqlite3.so.0 cannot be loaded",
-                         "install it: apt install libsqlite3-0"};
+                         "install the library: apt install libsqlite3-0"};
   Database db;
   db.path_ = path;
   sqlite3* handle = nullptr;

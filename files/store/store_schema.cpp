@@ -95,7 +95,7 @@ base::Problems check_format(Database& db) {
   if (format == 1)
     return {{db.path() + ":", "",
              "was written by an older sixstep without checksums, so damage cannot be detected",
-             "finish the runs with that version, or start again (force)"}};
+             "finish the runs with the older version, or start again (force)"}};
   return {{db.path() + ":", "",
            fmt::format("has the format {}, and this sixstep reads {}", format, store_format),
            "use the version of sixstep that wrote the store, or start again (force)"}};

@@ -84,7 +84,8 @@ std::optional<analysis::RunEnd> end_of(const std::string& word) {
 }
 
 base::Problem not_as_written() {
-  return {.where = {}, .value = {}, .limit = "does not have the contents of a row of this store", .cure = {}};
+  return {
+      .where = {}, .value = {}, .limit = "contains a row that does not fit this store's columns", .cure = {}};
 }
 
 }  // namespace

@@ -49,15 +49,15 @@ struct Diagnosis {
   sim::Instant at{};           ///< tick at which the faults were latched, or at which the rotor was last lost
   int losses = 0;              ///< number of times that a sensorless drive lost the rotor or failed to start
                                ///< it
-  control::LockLoss lost = control::LockLoss::none;  ///< reason of the last loss
-  bool gave_up = false;                              ///< true: the drive does not start again
-  int unseen = 0;                                    ///< number of times that pulses did not determine the
-                                                     ///< rotor's angle
-  double north = 0.0;                                ///< last result of the pulses: signal divided by noise
-  double certain = 0.0;                              ///< least sufficient value of `north`
-  ShaftFinding shaft{};                              ///< reason why an encoder or resolver counts as lost
-  OwnFinding own{};                                  ///< error in the answer of a user's controller
-  CoreTrouble core = CoreTrouble::none;              ///< trouble of a core in parallel to the host
+  control::LockLoss lost = control::LockLoss::none;    ///< reason of the last loss
+  bool gave_up = false;                                ///< true: the drive does not start again
+  int unseen = 0;                                      ///< number of times that pulses did not determine the
+                                                       ///< rotor's angle
+  double north = 0.0;                                  ///< last result of the pulses: signal divided by noise
+  double certain = 0.0;                                ///< least sufficient value of `north`
+  ShaftFinding shaft{};                                ///< reason why an encoder or resolver counts as lost
+  OwnFinding own{};                                    ///< error in the answer of a user's controller
+  CoreTrouble core = CoreTrouble::none;                ///< trouble of a core in parallel to the host
   std::uint32_t shunt_samples = 0, blind_samples = 0;  ///< samples of low-side shunts; those without a result
 };
 

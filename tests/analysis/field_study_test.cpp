@@ -129,8 +129,6 @@ TEST(FieldStudy, TheCircleBoundsSpeedAndCurrent) {
   EXPECT_NEAR(value(f.limits, "w_1"), 0.95 * circle / (K_e - 8 * L * 5), 1e-9);
 }
 
-/// The settling time of a step of i_q at a locked rotor, predicted by the linear loop, is equal to the
-/// simulated one within one sample.
 /// Low-side shunts: of the circle's speed w_0 the part 2 d - 1 for two shunts, (4/sqrt 3)(d - 1/2) for three.
 TEST(FieldStudy, LowSideShuntsBoundTheModulation) {
   study::Scenario s = field_oriented(Mode::speed, 600.0);
@@ -156,6 +154,8 @@ TEST(FieldStudy, LowSideShuntsBoundTheModulation) {
   }
 }
 
+/// The settling time of a step of i_q at a locked rotor, predicted by the linear loop, is equal to the
+/// simulated one within one sample.
 TEST(FieldStudy, TheStepIsTheRuns) {
   study::Scenario s = field_oriented(Mode::current, 2.0);
   s.load.locked = true;

@@ -122,9 +122,9 @@ TEST(LinearDesign, TellsItsProblemsInItsOwnWords) {
   const auto study = study_design(order);
   ASSERT_FALSE(study);
   EXPECT_EQ(study.problems()[0].where, "force_limit_N");
-  EXPECT_EQ(study.problems()[0].cure, "give it in N");
+  EXPECT_EQ(study.problems()[0].cure, "give this value in N");
   order.subject.step = 0.0;
-  EXPECT_EQ(study_design(order).problems()[0].cure, "give it in A, m/s or mm according to the mode");
+  EXPECT_EQ(study_design(order).problems()[0].cure, "give this value in A, m/s or mm according to the mode");
 }
 
 TEST(LinearDesign, AFirstScenarioRunsAndPasses) {

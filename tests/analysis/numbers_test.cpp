@@ -60,8 +60,9 @@ TEST(Numbers, OfABenchAreHeldToTheTable) {
   refused("diode_resistance_ohm", [](CurveRequest& r, double x) { r.bench.devices.r_d_ohm = x; });
   CurveRequest many{.sheet = testing::curve_sheet(), .bench = testing::maxon_bench()};
   many.points = 2147483647;
-  EXPECT_EQ(first(analysis::check(many)),
-            "points = 2147483647 must be at most 200000; give fewer points; a page shows some hundred");
+  EXPECT_EQ(
+      first(analysis::check(many)),
+      "points = 2147483647 must be at most 200000; give fewer points; some hundred are enough for a page");
   many.points = 41;
   many.bench.voltage_V = 1e4;
   EXPECT_NE(first(analysis::check(many)).find("makes the field turn at 2.39e+06 electrical rad/s"),

@@ -53,7 +53,7 @@ class Believed(ProgramTest):
 
     def test_refusals_name_the_key(self):
         for setting, words in (("believed.pole_pairs=0", "believed.pole_pairs = 0 must lie in 1 to 500"),
-                               ("believed.pole_pairs=6", "believed.pole_pairs = 6 is no multiple of the resolver's 4"),
+                               ("believed.pole_pairs=6", "believed.pole_pairs = 6 is not a multiple of the resolver's 4"),
                                ("believed.inductance_mH=1e-6", "believed.inductance_mH"),
                                ("sensors.resolver.offset_deg=400", "sensors.resolver.offset_deg = 400 must lie in -360 to 360"),
                                ("believed.poles=4", "believed.poles is not a key here")):

@@ -100,7 +100,7 @@ class Bench(Started):
         written = tomllib.loads((self.path / "a.toml").read_text())
         self.assertEqual(written, {"sensors": {}})
         for told in (text, (self.path / "a.toml").read_text()):
-            self.assertIn("# without hall_edges_deg: codes alone show neither the first edge nor", told)
+            self.assertIn("# without hall_edges_deg: Hall codes show neither the first edge nor", told)
         (self.path / "log.csv").write_text(log())
         self.run_program("motor", "identify", "log.csv", "--write", "b.toml")
         self.assertEqual(len(tomllib.loads((self.path / "b.toml").read_text())["sensors"]["hall_edges_deg"]), 6)

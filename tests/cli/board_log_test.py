@@ -137,7 +137,7 @@ class LogsOfOthers(LogTest):
         text = self.expect_right(columns=("speed_rad_s", "i_m_A", "bus_V", "duty"))
         self.assertIn("log.csv is a VESC Tool log: time = ms_today/1000, speed = erpm*2*pi/60/15, bus_V = input_voltage, i_m = current_motor, "
                       "duty = duty_cycle\n", text)
-        self.assertIn("current_in (a mean over PWM periods, where the simulation has the pulses)", text)
+        self.assertIn("current_in (a mean over PWM periods; the simulation has the current of each pulse)", text)
         text = self.expect_right("--columns", "time=ms_today/1000,speed=erpm*2*pi/60/15,i_m=current_motor")
         self.assertIn("the log's clock starts at 36000 s, so that times are counted from its first row", text)
         self.assertIn("not used: input_voltage, temp_mos_max, current_in, d_axis_current, q_axis_current, duty_cycle, tacho_meter (not named)", text)
@@ -164,7 +164,7 @@ class LogsOfOthers(LogTest):
                  f"{1e3 * r['t_s']:.1f},{r['speed_rad_s'] * RPM:.1f},{1e3 * r['i_m_A']:.2f},{int(n == 3)}\n")
         text = self.expect_right()
         self.assertIn('line 22 says "fault: over-current"', text)
-        self.assertIn("1 row says that the board missed control periods, up to 1", text)
+        self.assertIn("1 row says that the board missed up to 1 control periods", text)
         self.assertNotIn("not used", text)
 
     def test_a_broken_formula_is_no_other_one(self):
@@ -217,7 +217,7 @@ class LogsOfOthers(LogTest):
 
     def test_missed_periods_are_told(self):
         self.log("t [ms],speed [rpm],missed\n", lambda n, r: f"{1e3 * r['t_s']:.1f},{r['speed_rad_s'] * RPM:.1f},{2 if n == 7 else 0}\n")
-        self.assertIn("1 row says that the board missed control periods, up to 2", self.compared()[1])
+        self.assertIn("1 row says that the board missed up to 2 control periods", self.compared()[1])
 
 
 if __name__ == "__main__":

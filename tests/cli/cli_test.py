@@ -107,7 +107,7 @@ class CommandLine(ProgramTest):
                             ("curve maxon-251601 --csv x --html ./x", "--html = ./x is also the file of --csv; give each output its own file\n"),
                             ("design maxon-251601 --toml x --json ./x", "--toml = x is also the file of --json; give each output its own file\n"),
                             ("run a.toml index.toml --out out", "index.toml: would write index.html, which lists all reports; "
-                                                                "rename this file, or run it without --out\n")):
+                                                                "rename this file, or run the file without --out\n")):
             self.assertEqual(self.run_program(*words.split(), code=2).stderr, told)
         self.assertEqual(self.names(), ["a.toml", "index.toml"])
         self.run_program("run", "a.toml", "--csv", "/dev/null", "--vcd", "/dev/null", "--quiet")  # /dev/null accepts all of them
@@ -201,7 +201,7 @@ class CommandLine(ProgramTest):
                 ("run a.toml --runs 5 --watch", "--watch cannot be combined with --runs; leave out one of the two"),
                 ("run a.toml --jobs 0", "--jobs = 0 must be a whole number in 1 to 1024; sixstep run --help lists all"),
                 ("run a.toml --seed -1", f"--seed = -1 must be a whole number in 0 to {2**63 - 1}; sixstep run --help lists all"),
-                ("curve maxon-251601 --points 1e9", "--points = 1e9 must be a whole number; it means: number of points from standstill to no load. Default: 41"),
+                ("curve maxon-251601 --points 1e9", "--points = 1e9 must be a whole number; it means: number of speeds from standstill to no load. Default: 41"),
                 ("curve maxon-251601 --voltage 24V", "--voltage = 24V must be a number without a unit; it means: bus voltage, V. "
                                                      "Default: the sheet's nominal voltage"),
                 ("--verson", "--verson is not an argument of sixstep; did you mean --version?"),

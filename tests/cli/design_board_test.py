@@ -130,7 +130,7 @@ speed = {settle_s = 0.1, damping = 0.9}
 """
         crossed = self.BOARD.replace('rotor = "hall"', 'rotor = "hall", hall_lines = "213"')
         told, _ = self.designed_for(crossed + drive, code=1)
-        self.assertIn("correct the wiring (sensors.hall_lines, bridge.phases)", told)
+        self.assertIn('set sensors.hall_lines = "123" and bridge.phases = "abc"', told)
 
     def test_a_limit_of_the_current_bounds_what_is_warned_of(self):
         """The limit is 3 A. This is 1.29 times the nominal current, and less than the 5.83 A at full torque."""

@@ -65,7 +65,7 @@ class Design(ProgramTest):
         the warning disappears. At a period 5 % longer the warning is printed."""
         def cures(period_s):
             told = self.run_program("design", "maxon-251601", "--quick", "--chopping", "complementary", "--period", f"{period_s!r}").stdout
-            found = {word: re.search(rf"  - .*{word}.*\n(?:    with (?!--period).*\n)*(?:    with --period (\S+) this warning does not appear)?", told) for word in ("has a phase margin", "PWM ripple")}
+            found = {word: re.search(rf"  - .*{word}.*\n(?:    with (?!--period).*\n)*(?:    with --period (\S+) the design gives no such warning)?", told) for word in ("has a phase margin", "PWM ripple")}
             return {word: m and float(m[1] or "nan") for word, m in found.items()}
         both = cures(69.6e-6)
         self.assertGreater(both["has a phase margin"], 1.2 * both["PWM ripple"])
@@ -169,7 +169,7 @@ class Design(ProgramTest):
                 self.assertEqual(gains["d1"], loop["gain_rad_s_per_deg"] if mode == "position" and gains["loop"] == mode
                                  else loop["gains"]["d1"])
             # The board has no dead time. The design's test uses a value that is usual for gate drivers.
-            self.assertRegex((self.path / "d.toml").read_text(), r"(?m)^# bridge\.dead_time_s: simulated with the usual value of small bridges")
+            self.assertRegex((self.path / "d.toml").read_text(), r"(?m)^# bridge\.dead_time_s: the design used 0\.5 us, the usual value of small bridges")
             self.run_program("export", "header", "d.toml", "--out", "d.hpp")
             d1 = float(designed["loops"][0]["gains"]["d1"]).hex()
             mantissa, exponent = d1.split("p")
@@ -203,7 +203,7 @@ class Design(ProgramTest):
         said = self.run_program("design", "--scenario", "s.toml", code=2).stderr
         for key in ("control.current.type", "control.speed.law"):
             self.assertIn(f"{key} = ", said)
-        self.assertIn('set it to "pi"', said)
+        self.assertIn('set this key to "pi"', said)
 
     def test_design_of_a_motor_file_names_it_as_the_scenario_sees_it(self):
         (self.path / "mine.toml").write_text((SOURCE / "data/motors/maxon-251601.toml").read_text())
@@ -273,7 +273,7 @@ class Design(ProgramTest):
             with self.subTest(option=option):
                 self.assertRegex(self.run_program(*quick, option, values[option], code=2).stderr, f"(^|design ){option} ")
         self.assertEqual(self.run_program(*quick, "--torque-limit", "0.3", code=2).stderr,
-                         "--torque-limit applies to a speed loop only, and --mode current has none; add --mode speed or --mode position, or leave it out\n")
+                         "--torque-limit applies only to a speed loop, which --mode current does not have; add --mode speed or --mode position, or leave this option out\n")
 
     def test_design_writes_a_page_that_needs_nothing(self):
         self.run_program("design", "maxon-251601", "--mode", "speed", "--quiet", "--html", "d.html")

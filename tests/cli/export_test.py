@@ -62,7 +62,7 @@ class Export(ProgramTest):
             self.assertEqual(result.stdout, "")
             return result.stderr
         off = told(position, "--set", "control.mode=off")
-        self.assertEqual(off, f"{position}: control.mode = off leaves no drive to export; set it to duty, current, speed or position\n")
+        self.assertEqual(off, f"{position}: control.mode = off leaves no drive to export; set control.mode to duty, current, speed or position\n")
         self.assertIn("absent.toml", told("absent.toml"))
         self.assertEqual(told(position, "--arithmetic", "q51"),
                          "--arithmetic = q51 must be one of double, float, q15, q14, q31, q30; did you mean q15?\n")
@@ -150,7 +150,7 @@ class Gate(ProgramTest):
     def test_a_requirement_that_fails_is_refused(self):
         told = self.refused(1, BOARD, "--set", "supply.voltage_V=6")
         self.assertEqual(len(told), 1)
-        self.assertRegex(told[0], r"^slowest reach of 98 % = 0\.0015\d+ s misses its requirement, <= 0\.001 s; read the report")
+        self.assertRegex(told[0], r"^slowest reach of 98 % = 0\.0015\d+ s misses its requirement, <= 0\.001 s; find the cause")
 
     def test_what_was_never_measured_is_refused_all_at_once_beside_what_fails(self):
         told = self.refused(2, "current-square", "--set", "supply.voltage_V=6", "--set", "pwm.chopping=complementary")
@@ -203,7 +203,7 @@ class Gate(ProgramTest):
 
     def test_despite_needs_a_reason_and_is_told_where_it_was_not_needed(self):
         told = self.run_program("export", "header", self.scenario(BOARD), "--despite", " \n", code=2).stderr
-        self.assertEqual(told, "--despite gives no reason; give the reason for writing the header anyway; the header quotes it\n")
+        self.assertEqual(told, "--despite gives no reason; give the reason for which you write the header anyway; the header quotes this reason\n")
         clear = self.run_program("export", "header", self.scenario(BOARD), *DESPITE)
         self.assertIn("--despite was not needed: the run holds every requirement, and the header states this\n", clear.stderr)
         self.assertIn("Cleared by its run", clear.stdout)

@@ -67,7 +67,7 @@ class Parameters(ProgramTest):
                 self.assertEqual(made.stdout, "")
                 self.assertNotIn("mine.toml", self.names())
         self.assertIn("--style", self.run_program("motor", "new", "mine", "--from", "nan.cfg", "--style", "drone", code=2).stderr)
-        self.assertIn("answers a question of --from FILE", self.run_program("motor", "new", "mine", "--answer", "kv=six-step", code=2).stderr)
+        self.assertIn("answers a question about the file of --from", self.run_program("motor", "new", "mine", "--answer", "kv=six-step", code=2).stderr)
         self.assertIn("sixstep motor new NAME --from nan.cfg", self.run_program("motor", "check", "nan.cfg", code=2).stderr)
 
 

@@ -43,12 +43,12 @@ class Motor(ProgramTest):
         (self.path / "a.toml").write_text(shipped.replace("value = 23.3,", "value = 32.3,"))
         result = self.run_program("motor", "check", "a.toml", code=1)
         self.assertRegex(result.stdout, r"BROKEN stall current .*\n")
-        self.assertTrue(result.stdout.endswith("INCONSISTENT: 5 of 7 relations hold, 1 broken, as the file states, 1 broken\n"), result.stdout)
+        self.assertTrue(result.stdout.endswith("INCONSISTENT: 5 of 7 relations hold, 1 broken as known_deviation states, 1 broken\n"), result.stdout)
         checked = json.loads(self.run_program("motor", "check", "--json", "a.toml", code=1).stdout)
         self.assertEqual([r["name"] for r in checked["relations"] if r["verdict"] == "broken"], ["stall current"])
         self.assertIs(checked["consistent"], False)
         (self.path / "a.toml").write_text(shipped.replace('["nominal torque"]', '["stall current"]'))
-        self.assertIn("names a relation that holds; remove it", self.run_program("motor", "check", "a.toml", code=2).stderr)
+        self.assertIn("names a relation that holds; remove this name", self.run_program("motor", "check", "a.toml", code=2).stderr)
 
     def test_motor_check_says_what_a_simulation_lacks(self):
         words = 'name = "a"\npole_pairs = 7\nresistance_ohm = { value = 0.1, frame = "phase" }\n'

@@ -25,7 +25,7 @@ class Starter(ProgramTest):
                 name = f"{motor}-{mode}"
                 self.run_program("new", name, "--motor", motor, "--mode", mode)
                 self.assertIn("ok", self.run_program("run", name + ".toml").stdout)
-                self.assertRegex((self.path / f"{name}.toml").read_text(), r"(?m)^# .*pause between turning one switch of a leg off and the other on.*\n(# .*\n)*dead_time_s = 500e-9$")
+                self.assertRegex((self.path / f"{name}.toml").read_text(), r"(?m)^# .*pause between the turn-off of one switch of a leg and the turn-on of the other switch.*\n(# .*\n)*dead_time_s = 500e-9$")
                 self.run_program("export", "header", name + ".toml", "--out", name + ".hpp")
                 self.assertIn("// Cleared by its run:", (self.path / f"{name}.hpp").read_text())
 

@@ -42,13 +42,13 @@ class OnCore(ProgramTest):
                             ((SPEED, "--on", "cortex-m4", "--runs", "4"), "--runs"),
                             ((SPEED, "--on", "cortex-m4", "--vary", "supply.voltage_V=20:28:3"), "--only N"),
                             ((str(SOURCE / "data/plans/which-pwm.toml"), "--on", "cortex-m4"), "--only N"),
-                            (("own.toml", "--on", "cortex-m4"), "the library's drives do"),
-                            ((SPEED, "--on", "cortex-m4", "--set", "control.mode=off"), "leaves nothing for a core to run"),
+                            (("own.toml", "--on", "cortex-m4"), "the library's drives run"),
+                            ((SPEED, "--on", "cortex-m4", "--set", "control.mode=off"), "runs no controller that a core could execute"),
                             ((SPEED, "--on", "avr"), "set pwm.alignment = \"centre\""),
                             ((AVR, "--on", "avr", "--set", "control.arithmetic=float"), "set control.arithmetic = \"q15\""),
                             ((AVR, "--on", "avr", "--set", "pwm.period_s=10.01e-6"), "a multiple of 125 ns"),
                             ((AVR, "--on", "avr", "--set", "bridge.dead_time_s=0"), "bridge.dead_time_s"),
-                            ((AVR, "--on", "avr", "--set", "bridge.dead_time_s=6e-6"), "at most to 5e-6"),
+                            ((AVR, "--on", "avr", "--set", "bridge.dead_time_s=6e-6"), "at most 5e-6"),
                             ((AVR, "--on", "avr", "--set", "sensors.adc_bits=12"), "set sensors.adc_bits = 10"),
                             ((AVR, "--on", "none.toml"), "none.toml"),
                             ((AVR, "--on", MAP), "build the firmware first"),
@@ -66,7 +66,7 @@ class OnCore(ProgramTest):
     def test_says_what_is_missing_and_leaves_no_file(self):
         for environment, said in (({"PATH": "/nowhere"}, "arm-none-eabi-g++ is not installed on this machine; install it"),
                                   ({"SIXSTEP_SOURCES": "/nowhere"}, "set SIXSTEP_SOURCES to the folder"),
-                                  ({"TMPDIR": "/proc"}, "set TMPDIR to a folder that can be written to")):
+                                  ({"TMPDIR": "/proc"}, "set TMPDIR to a folder in which you may write")):
             with self.subTest(said=said), tempfile.TemporaryDirectory() as folder:
                 made = subprocess.run([PROGRAM, "run", SPEED, "--on", "cortex-m4", "--html", "x.html"], cwd=self.path, text=True, check=False,
                                       capture_output=True, timeout=300, env={**os.environ, "TMPDIR": folder, **environment})

@@ -44,7 +44,7 @@ class Overwriting(Started):
             (self.path / name).write_text(LETTER)
             with self.subTest(what):
                 told = self.run_program(*words, code=2).stderr
-                self.assertEqual(told, f"{name}: was not written by sixstep, or was changed after that; name another file, or add --force to replace it\n")
+                self.assertEqual(told, f"{name}: was not written by sixstep, or was changed after sixstep wrote it; name another file, or add --force to replace it\n")
                 self.assertEqual((self.path / name).read_text(), LETTER)
         self.assertEqual(self.names(), ["brisk.toml", "letter", "letter.json", "letter.mat", "log.csv", "slow.toml"])
 
@@ -66,7 +66,7 @@ class Overwriting(Started):
         self.run_program(*words)
         with open(self.path / "a.toml", "a", encoding="utf-8") as file:
             file.write("# 0.5 Nm did not do\n")
-        self.assertIn("a.toml: was not written by sixstep, or was changed after that", self.run_program(*words, code=2).stderr)
+        self.assertIn("a.toml: was not written by sixstep, or was changed after sixstep wrote it", self.run_program(*words, code=2).stderr)
 
     def test_a_folder_of_somebody_elses_pages_stays(self):
         os.mkdir(self.path / "site")

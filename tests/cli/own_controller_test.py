@@ -93,8 +93,8 @@ class OwnController(Started):
             self.is_named("behind-state", beside.format("state") + AT_20 + ENDS, by=by)
             self.is_named("behind-config", beside.format("config") + " in its design" + ENDS, by=by)
             self.is_named("behind-answer", beside.format("answer") + AT_20 + ENDS, by=by)
-        self.is_named("before-state", "wrote outside its state" + AT_20 + ENDS)
-        self.is_named("before-config", "wrote outside its config in its design" + ENDS)
+        self.is_named("before-state", "wrote to memory outside its state" + AT_20 + ENDS)
+        self.is_named("before-config", "wrote to memory outside its config in its design" + ENDS)
         for deed in ("far-before-state", "into-config", "stack"):
             self.is_named(deed, r"(crashed|gave up).*" + AT_20 + ENDS)
         self.is_named("bad-name", r"crashed \(SIGSEGV: .*\) while it was loaded" + ENDS)
@@ -102,7 +102,7 @@ class OwnController(Started):
         self.is_named("exception-at-work", r"crashed \(SIGFPE: .*\)" + AT_20 + ENDS)
 
     def test_what_it_says_of_itself_is_bounded(self):
-        for deed, said in (("huge", "config_bytes"), ("no-step", "step"), ("no-list", "must be an array of `parameters`"), ("nothing", "answers a null pointer"), ("long-sentence", "a" * 1000)):
+        for deed, said in (("huge", "config_bytes"), ("no-step", "step"), ("no-list", "must be an array of `parameters`"), ("nothing", "returned a null pointer"), ("long-sentence", "a" * 1000)):
             code, _, told = self.behaving(deed)
             self.assertEqual((code, said in told, len(told) < 2000), (2, True, True), told[:3000])
             self.nothing_is_left()

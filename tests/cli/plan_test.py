@@ -101,7 +101,7 @@ class Plan(ProgramTest):
             for remark in told:
                 self.assertIn(remark["text"], alone[remark["runs"][0]])
             self.assertIn(f"  remark, runs 1, 2 (with the numbers of run 1): {short[1][0]}\n", table)
-            self.assertIn("  remark, all runs: given without effect: ", table)
+            self.assertIn("  remark, all runs: keys without effect: ", table)
 
     def test_a_drive_of_ideal_sensors_is_given_no_seed(self):
         self.held(SPREAD)
@@ -367,7 +367,7 @@ class Plan(ProgramTest):
             self.assertLess(abs(back + asked), 0.01 * asked)
             self.assertLess(abs(held - late[0]), 1)
         alone = self.run_program("run", file, *wires[:2], *sinks, "--set", "sensors.hall_lines=213", code=3).stdout
-        after = re.search("note: measured after the trip, with the drive off: (.*)", alone).group(1)
+        after = re.search("note: figures measured after the trip, with the drive off: (.*)", alone).group(1)
         self.assertEqual(after, ", ".join(f"{what} at {speed} rad/s" for speed in (100, 300, 70) for what in ("mean speed", "swing")))
 
     def test_a_page_has_every_run_and_says_how_to_look_at_one(self):

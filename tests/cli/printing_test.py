@@ -103,7 +103,7 @@ class Unheard(ProgramTest):
     def test_what_is_printed_reaches_no_file_where_standard_output_is_closed(self):
         out = subprocess.run(["bash", "-c", f"{PROGRAM} run a.toml --csv a.csv --json a.json >&-"], cwd=self.path, capture_output=True, text=True)
         self.assertEqual((out.returncode, out.stdout), (2, ""))
-        self.assertEqual(out.stderr, "standard output: cannot be written: Bad file descriptor; send the output to a file or a program that can accept it\n")
+        self.assertEqual(out.stderr, "standard output: cannot be written: Bad file descriptor; send the output to a file with free space, or to a program that reads all lines\n")
         self.assertNotIn("experiment", (self.path / "a.csv").read_text() + (self.path / "a.json").read_text())
         self.assertTrue(json.loads((self.path / "a.json").read_text())["complete"])
 

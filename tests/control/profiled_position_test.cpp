@@ -63,7 +63,7 @@ TEST(ProfiledPosition, SpeedIsAddedToWhatThePositionLoopAsksFor) {
   EXPECT_EQ(with.now().speed_rad_s, 0.0);
 }
 
-/// A shaft that follows exactly needs no correction, so the reference is only the feed-forward torque.
+/// A shaft that follows the profile exactly needs no correction, so the current reference comes from the feed-forward torque alone.
 TEST(ProfiledPosition, TorqueIsAskedForBeforeAnErrorIsSeen) {
   Bench b{positioning()};
   double most = 0.0;

@@ -138,7 +138,7 @@ TEST(MotorModel, BothConstantsMustBeOneFact) {
   s.back_emf_mV_s->value = 16.76;
   EXPECT_EQ(
       problems_of(s),
-      "back_emf_mV_s = 16.76 contradicts torque_constant_mNm_A, which means 16.75; keep one of the two\n");
+      "back_emf_mV_s = 16.76 contradicts torque_constant_mNm_A, which means 16.75; remove one of the two keys\n");
 }
 
 /// The values are in SI units, but under keys in mH and gcm2. A run of such a motor would not end.

@@ -158,7 +158,7 @@ TEST(ShapeTable, WhatIsNoTableIsTold) {
   s = sheet_of({{0, 120, 180, 360}, {1, 1, -1, -1}});
   EXPECT_NE(first(s).find("must lie in [0, 360)"), std::string::npos) << first(s);
   s = sheet_of({{0, 180}, {2, 2}});
-  EXPECT_NE(first(s).find("is the same everywhere"), std::string::npos) << first(s);
+  EXPECT_NE(first(s).find("has the same value at all angles"), std::string::npos) << first(s);
   s = sheet_of(corners(120));
   for (double& v : s.back_emf_shape) v += 0.1;
   EXPECT_NE(first(s).find("subtract 0.1 from every value"), std::string::npos) << first(s);

@@ -285,10 +285,10 @@ TEST(SheetCheck, AKnownDeviationMustBeOneAndIsOne) {
   EXPECT_EQ(relation(checked(s), "nominal torque").verdict, RelationVerdict::known);
   s.known_deviation = {"stall torque"};
   EXPECT_EQ(to_string(check_sheet(s).problems().at(0)),
-            "known_deviation = \"stall torque\" names a relation that holds; remove it");
+            "known_deviation = \"stall torque\" names a relation that holds; remove this name");
   s.known_deviation = {"stall"};
   EXPECT_EQ(to_string(check_sheet(s).problems().at(0)).substr(0, 78),
-            "known_deviation = \"stall\" names no relation of this sheet; name one of these: ");
+            "known_deviation = \"stall\" is not the name of a relation of this sheet; name one of these: ");
 }
 
 /// If a sheet has few values, a unit that is wrong by a factor of thousand contradicts no relation. Such
@@ -326,7 +326,7 @@ TEST(SheetCheck, MessagesNameValuesAsTheFileWritesThem) {
   const auto told = check_sheet(s);
   ASSERT_FALSE(told);
   EXPECT_EQ(to_string(told.problems()[0]).substr(0, 88),
-            "inertia_with_brake_kgm2 = 1e-05 is less than the rotor's own, inertia_kgcm2 = 0.135; swa");
+            "inertia_with_brake_kgm2 = 1e-05 is less than the rotor's inertia, inertia_kgcm2 = 0.135; swa");
   s = printed_251601();
   s.torque_constant_mNm_A->value = 41e3;
   s.inertia_gcm2->value = 48;

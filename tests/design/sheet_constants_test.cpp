@@ -160,7 +160,7 @@ TEST(SheetConstants, PolesPairsAndWindingsAreToldApart) {
   s.pole_pairs = 8;
   EXPECT_EQ(
       told(s),
-      "pole_pairs = 8 contradicts winding = \"12N14P\", which has 7 pole pairs; correct the wrong one of the two");
+      "pole_pairs = 8 contradicts winding = \"12N14P\", which has 7 pole pairs; correct the key that is wrong");
   s.pole_pairs.reset();
   s.winding.clear();
   s.poles = 15;
@@ -210,8 +210,9 @@ TEST(SheetConstants, SaliencyAndBrakesAreAskedFor) {
   s.q_axis_inductance_mH->value = 0.031;
   EXPECT_EQ(sheet_constants(s).L_H->value, 31e-6);
   s.inductance_mH = Quantity{0.3, "phase", ""};
-  EXPECT_EQ(told(s),
-            "inductance_mH = 0.3 is given twice: L_d and L_q are also given; keep one of the two ways");
+  EXPECT_EQ(
+      told(s),
+      "inductance_mH = 0.3 is given twice: L_d and L_q are also given; remove inductance_mH, or both axis inductances");
   s = printed_251601();
   s.inertia_with_brake_gcm2 = Quantity{150, "", ""};
   EXPECT_EQ(sheet_constants(s).J_kg_m2->value, 135e-7);
@@ -220,7 +221,7 @@ TEST(SheetConstants, SaliencyAndBrakesAreAskedFor) {
   s.inertia_with_brake_gcm2->value = 13.5;
   EXPECT_EQ(
       told(s),
-      "inertia_with_brake_gcm2 = 13.5 is less than the rotor's own, inertia_gcm2 = 135; swap the two values: a brake adds inertia");
+      "inertia_with_brake_gcm2 = 13.5 is less than the rotor's inertia, inertia_gcm2 = 135; swap the two values: a brake adds inertia");
 }
 
 TEST(SheetConstants, FrictionLiesBetweenItsExtremesAndTwoPointsSplitIt) {
@@ -262,8 +263,8 @@ TEST(SheetConstants, NotSimulatableMeansNoModelButAReason) {
   s.inertia_gcm2.reset();
   EXPECT_EQ(
       told(s),
-      "simulatable = false because no source gives its inertia; choose another motor, or give what is "
-      "missing in [motor_override] together with simulatable = true and not_simulatable_because = \"\"");
+      "simulatable = false because no source gives its inertia; choose another motor, or give the "
+      "missing values in [motor_override] together with simulatable = true and not_simulatable_because = \"\"");
 }
 
 TEST(SheetConstants, StandardKeysMeanTheSameModel) {

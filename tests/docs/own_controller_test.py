@@ -93,8 +93,8 @@ class OwnControllerPage(unittest.TestCase):
         told = json.loads(self.run_program(*words, "--runs", "0", "--json", "-").stdout)
         cost = next(c["cost"] for c in told["controllers"] if c["name"] == "PI in integers")
         self.assertEqual((cost["core"], cost["tick_instructions"], cost["flash_bytes"]), ("Cortex-M4F", worst, flash))
-        for text, said in (("{", "is not a count of a user's controller"), (json.dumps({**counted, "cores": []}), "has no count of the Cortex-M4F"),
-                           (json.dumps({**counted, "cores": [{**row, "flash_bytes": -1}]}), "has no count of the Cortex-M4F"),
+        for text, said in (("{", "does not contain the instruction counts of a user's controller"), (json.dumps({**counted, "cores": []}), "does not contain the instruction count on the Cortex-M4F"),
+                           (json.dumps({**counted, "cores": [{**row, "flash_bytes": -1}]}), "does not contain the instruction count on the Cortex-M4F"),
                            (json.dumps({**counted, "controller": "another"}), '"another" is not a controller of --own')):
             (self.path / "cost.json").write_text(text, encoding="utf-8")
             self.assertIn(said, self.run_program(*words, code=2).stderr)

@@ -30,14 +30,15 @@ TEST(ControllerFile, WhatIsNoneIsToldAsSuch) {
       told("no_symbol.so"),
       folder +
           "/no_symbol.so cannot be loaded: it has no function sixstep_own_controller; compile the controller with -shared -fPIC for this machine (docs/howto/write-a-controller.md)");
-  EXPECT_EQ(told("answers_nothing.so")
-                .find(folder + "/answers_nothing.so cannot be loaded: sixstep_own_controller answers a null"),
-            0u);
+  EXPECT_EQ(
+      told("answers_nothing.so")
+          .find(folder + "/answers_nothing.so cannot be loaded: sixstep_own_controller returned a null"),
+      0u);
   EXPECT_EQ(
       told("other_interface.so"),
       folder +
           "/other_interface.so has a controller whose interface = 2 is not 1, the interface of this program: compile it "
-          "with this program's own_controller.h; compare the controller's description with sixstep/control/own/own_controller.h");
+          "with this program's own_controller.h; correct this member as sixstep/control/own/own_controller.h describes it");
   EXPECT_EQ(told("in_float.so"),
             folder +
                 "/in_float.so has a controller whose interface = 257 is compiled for float, and this program "

@@ -64,7 +64,7 @@ TEST_F(ReplacedFiles, WhatSixstepHasNotWrittenIsRefusedUnlessForced) {
     EXPECT_EQ(
         told_writing(path, "new"),
         path +
-            ": was not written by sixstep, or was changed after that; name another file, or add --force to "
+            ": was not written by sixstep, or was changed after sixstep wrote it; name another file, or add --force to "
             "replace it");
     EXPECT_EQ(*read_text(path), foreign);
     EXPECT_EQ(entries(), 1U);

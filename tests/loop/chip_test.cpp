@@ -55,7 +55,7 @@ TEST(Chip, OneThatEndsIsGoneAndOneThatHangsIsSilent) {
 TEST(Chip, WhatDoesNotGreetAsOneIsTold) {
   for (const auto& [how, said] :
        {std::pair{"never starts", "ended before the program ran"},
-        std::pair{"chip means other structs", "build both from the same sources"}}) {
+        std::pair{"chip means other structs", "build both programs from the same sources"}}) {
     const Core core = playing(how);
     const auto chip = Chip::start(core, "image");
     ASSERT_FALSE(chip) << how;

@@ -354,7 +354,7 @@ TEST(Believed, RefusesWhatMakesNoMotor) {
   };
   EXPECT_THAT(problem([](Believed& b) { b.pole_pairs = 0; }), HasSubstr("believed.pole_pairs"));
   EXPECT_THAT(problem([](Believed& b) { b.pole_pairs = 10; }, RotorSensing::resolver),
-              HasSubstr("is no multiple of the resolver's 4"));
+              HasSubstr("is not a multiple of the resolver's 4"));
   EXPECT_EQ(problem([](Believed& b) { b.pole_pairs = 12; }, RotorSensing::resolver), "none");
   EXPECT_THAT(problem([](Believed& b) {
                 b.flux_linkage_mWb = base::Quantity{2, "phase", ""};

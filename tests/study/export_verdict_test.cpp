@@ -133,7 +133,7 @@ TEST(ExportVerdict, TheCureOfAStallThatIsNeverPassedHolds) {
     };
     const std::string cure = of_stall(study::never_measured(s));
     ASSERT_NE(cure, "") << bits;
-    constexpr std::string_view lower = "lower it, for example to ";
+    constexpr std::string_view lower = "lower this value, for example to ";
     if (!cure.starts_with(lower)) {
       EXPECT_THAT(cure, HasSubstr("raise sensors.adc_bits")) << bits;
       continue;

@@ -146,7 +146,10 @@ TEST(HallPlacement, WhatCannotBeIsRefused) {
     const base::Problems problems = check(s);
     return problems.empty() ? "nothing" : to_string(problems[0]);
   };
-  EXPECT_THAT(refused([](Sensors& s) { s.hall_edges_deg = {1, 2, 3}; }), HasSubstr("must be 6, the edges"));
+  EXPECT_THAT(refused([](Sensors& s) {
+                s.hall_edges_deg = {1, 2, 3};
+              }),
+              HasSubstr("must have 6 (edges of an electrical turn)"));
   EXPECT_EQ(refused([](Sensors& s) { s.hall_edges_deg = std::vector<double>(48, 1.0); }), "nothing");
   EXPECT_THAT(refused([](Sensors& s) { s.hall_edges_deg = {0, 30, -30, 0, 0, 0}; }),
               HasSubstr("at least 1 deg is needed"));

@@ -192,15 +192,15 @@ TEST(OwnController, WhatNoTimerDoesEndsTheRun) {
   wrong.sink = 0;
   EXPECT_EQ(fault(pair_puppet, wrong), answered("sink = 0 in step 1, which is the same leg as source"));
   wrong.sink = 3;
-  EXPECT_EQ(fault(pair_puppet, wrong), answered("sink = 3 in step 1, which is no leg"));
+  EXPECT_EQ(fault(pair_puppet, wrong), answered("sink = 3 in step 1, which is not a leg"));
   wrong = pair;
   wrong.chopping = 3;
   EXPECT_EQ(fault(pair_puppet, wrong),
-            answered("chopping = 3 in step 1, which is no value of own_controller.h"));
+            answered("chopping = 3 in step 1, which is not a value that own_controller.h defines"));
   wrong = {};
   wrong.enabled = 1, wrong.leg[0].state = 4;
   EXPECT_EQ(fault(legs_puppet, wrong),
-            answered("leg[0].state = 4 in step 1, which is no value of own_controller.h"));
+            answered("leg[0].state = 4 in step 1, which is not a value that own_controller.h defines"));
   wrong = {};
   wrong.fault = 1;
   EXPECT_EQ(fault(pair_puppet, wrong), answered("fault = 1 in step 1: the controller reported a fault"));
@@ -252,7 +252,7 @@ TEST(OwnController, KeysThatNothingReachesItFromAreNamed) {
   EXPECT_EQ(remarks(s).find("without effect"), std::string::npos);
   const double limit_A = last_given.current_limit_A;
   s.control.current.limit_A = 2.0;
-  EXPECT_NE(remarks(s).find("given without effect: control.current.limit_A (control.mode has no speed loop)"),
+  EXPECT_NE(remarks(s).find("keys without effect: control.current.limit_A (control.mode has no speed loop)"),
             std::string::npos);
   EXPECT_EQ(last_given.current_limit_A, limit_A);
   s = with(&pair_puppet, cascade());

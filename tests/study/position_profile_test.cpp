@@ -240,7 +240,7 @@ TEST(PositionProfile, ContradictionsAreTold) {
   EXPECT_THAT(with([](Control& c) { c.slew = 10.0; }),
               HasSubstr("control.slew = 10 limits the rate of the setpoint"));
   EXPECT_THAT(with([](Control& c) { c.arithmetic = Arithmetic::q31; }),
-              HasSubstr("control.arithmetic = q31 has too few digits for"));
+              HasSubstr("control.arithmetic = q31 has a resolution that is too coarse for"));
   EXPECT_THAT(with([](Control& c) { c.speed.law = study::SpeedLaw::disturbance_rejection; }),
               HasSubstr("would estimate as a load"));
   EXPECT_EQ(with([](Control& c) {
@@ -250,10 +250,12 @@ TEST(PositionProfile, ContradictionsAreTold) {
             "");
   EXPECT_THAT(
       with([](Control& c) { c.position.profile.acceleration_rad_s2 = 6e4; }),
-      HasSubstr("acceleration_rad_s2 = 60000 takes J a = 0.81 N m, and the drive's limit is 0.78 N m"));
+      HasSubstr(
+          "acceleration_rad_s2 = 60000 takes J a = 0.81 N m, and the drive's torque limit is 0.78 N m"));
   EXPECT_THAT(with([](Control& c) { c.position.profile.speed_rad_s = 800.0; }),
               HasSubstr("is above the no-load speed of the bus, 716 rad/s"));
-  EXPECT_THAT(with([](Control& c) { c.position.profile.smoothing_s = 1000.0; }), HasSubstr("lower it"));
+  EXPECT_THAT(with([](Control& c) { c.position.profile.smoothing_s = 1000.0; }),
+              HasSubstr("lower this value"));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

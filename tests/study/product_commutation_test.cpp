@@ -164,7 +164,7 @@ TEST(ProductCommutation, SaysWhatCannotBe) {
   std::string all;
   for (const base::Problem& p : study::check(s)) all += to_string(p) + "\n";
   EXPECT_THAT(all, HasSubstr("sensors.hall_stable_samples = 7 last longer than a sector"));
-  EXPECT_THAT(all, HasSubstr("lower it to 6 at most"));
+  EXPECT_THAT(all, HasSubstr("lower this value to 6 at most"));
   EXPECT_THAT(all, HasSubstr("control.advance.angle_deg = 25 is above limit_deg = 20"));
   s = flywheel();
   s.sensors.hall_stable_samples = 6;

@@ -337,7 +337,7 @@ TEST(Product, SaysWhatItLacks) {
   s = product_scenario(Mode::speed, 100.0);
   s.protection.over_current_A = 25.0;
   ASSERT_EQ(study::check(s).size(), 1u);
-  EXPECT_THAT(to_string(study::check(s)[0]), HasSubstr("converter measures up to"));
+  EXPECT_THAT(to_string(study::check(s)[0]), HasSubstr("converter measures only up to"));
   s = product_scenario(Mode::speed, 100.0);
   s.control.drive = study::FirmwareKind::lean;
   ASSERT_EQ(study::check(s).size(), 1u);

@@ -269,7 +269,7 @@ TEST(Remarks, KeysWithoutEffectAreNamed) {
     give(s);
     const auto with = run(s);
     ASSERT_TRUE(with && without) << name;
-    EXPECT_THAT(with->remarks, Contains(HasSubstr(std::string("given without effect: ") + name))) << name;
+    EXPECT_THAT(with->remarks, Contains(HasSubstr(std::string("keys without effect: ") + name))) << name;
     EXPECT_EQ(with->digest, without->digest) << name;
   }
   Scenario s = held(5.0);

@@ -78,8 +78,7 @@ TEST(EncoderFault, EdgesAreMissedAtTheRateAskedFor) {
   EXPECT_TRUE(missed(7).empty());
 }
 
-/// The drive controls 2 A, with the rotor locked at an electrical angle. A sensor fails in the middle of the
-/// run.
+/// The drive holds 2 A with the rotor locked at an electrical angle. Each test adds its sensor fault to the event at 5 ms.
 Scenario held_at(double electrical_deg) {
   Scenario s = maxon_scenario(Mode::current, 2.0);
   s.duration_s = 10e-3;
@@ -202,7 +201,7 @@ TEST(ShaftSensorFaults, WhatCannotBeIsRefused) {
                 s.sensors.rotor = RotorSensing::absolute;
                 s.at[0].sensors.bad_track = AtTrack{.track = 15};
               }),
-              HasSubstr("an existing track"));
+              HasSubstr("name a track from 1 to sensors.absolute.bits"));
   EXPECT_THAT(refused([](Scenario& s) { s.sensors.encoder.missed_Hz = 1e7; }), HasSubstr("100000"));
   EXPECT_THAT(refused([](Scenario& s) { s = tracked(s, 9); }), HasSubstr("converter chip"));
   EXPECT_THAT(refused([](Scenario& s) {

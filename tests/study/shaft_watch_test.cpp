@@ -57,13 +57,13 @@ TEST(ShaftWatch, ABrokenWindingIsNamedWhereHalfTheSquareIsLost) {
     s.at.push_back(at_angle(80));
     s.at.back().sensors.broken_winding = Winding::cosine;
     const Outcome out = outcome_of(s);
-    EXPECT_THAT(fault_of(out), HasSubstr("cosine winding shows nothing"));
+    EXPECT_THAT(fault_of(out), HasSubstr("cosine winding has no voltage"));
     // One count of the converter shifts the instant at which the square falls below its limit. The fault
     // needs two results, and each result is half a period of the excitation late.
     EXPECT_NEAR(out.simulated_s, time_at(135), 2.5 * s.pwm.period_s + 1.25 / 2048 / w);
     s.at.back().sensors.broken_winding = Winding::sine;
     const Outcome sine = outcome_of(s);
-    EXPECT_THAT(fault_of(sine), HasSubstr("the sine winding shows nothing"));
+    EXPECT_THAT(fault_of(sine), HasSubstr("the sine winding has no voltage"));
     EXPECT_NEAR(sine.simulated_s, time_at(80), 3 * s.pwm.period_s)
         << "at 80 degrees the cosine shows 3 % of the square";
   }

@@ -151,9 +151,10 @@ TEST(SpeedForm, SaysWhatOnlyThePositionalFormHas) {
   s.control.speed.derivative_s = 1e-3;
   const base::Problems incremental = study::check(s);
   ASSERT_EQ(incremental.size(), 2u);
-  EXPECT_THAT(to_string(incremental[0]),
-              HasSubstr("control.speed.anti_windup = 0.5 applies to the positional form only; set "
-                        "control.speed.form = \"positional\""));
+  EXPECT_THAT(
+      to_string(incremental[0]),
+      HasSubstr("control.speed.anti_windup = 0.5 applies only to control.speed.form = \"positional\"; set "
+                "control.speed.form = \"positional\""));
   s.control.speed.form = SpeedForm::positional;
   EXPECT_TRUE(study::check(s).empty());
   s.control.speed.derivative_s = std::nullopt;

@@ -212,7 +212,7 @@ TEST(SpeedLaw, SaysWhatALawDoesNotHave) {
   EXPECT_THAT(
       all,
       HasSubstr(
-          "control.speed.kp = 0.1 applies to a PI only, and control.speed.law = \"state-feedback\" has none"));
+          "control.speed.kp = 0.1 applies only to a PI, which control.speed.law = \"state-feedback\" does not have"));
   EXPECT_THAT(all, HasSubstr("control.speed.damping"));
   s = loaded(SpeedLaw::sliding_mode);
   s.control.arithmetic = study::Arithmetic::q31;
@@ -223,9 +223,10 @@ TEST(SpeedLaw, SaysWhatALawDoesNotHave) {
   s.control.speed.setpoint_weight = 0.5;
   s.control.speed.observer_ratio = 4;
   ASSERT_EQ(study::check(s).size(), 2u);
-  EXPECT_THAT(to_string(study::check(s)[0]), HasSubstr("applies to the positional form only"));
+  EXPECT_THAT(to_string(study::check(s)[0]),
+              HasSubstr("applies only to control.speed.form = \"positional\""));
   EXPECT_THAT(to_string(study::check(s)[1]),
-              HasSubstr("applies to an observer only, and law = \"pi\" has none"));
+              HasSubstr("applies only to an observer, which law = \"pi\" does not have"));
   s = loaded(SpeedLaw::state_feedback);
   s.load.viscous_Nm_s = 0.01;  // J/B = 1.35 ms
   const auto refused = study::compile(s);

@@ -72,7 +72,8 @@ TEST(SpeedToDuty, RefusesWhatOnlyACurrentLoopCouldHold) {
   ASSERT_FALSE(out);
   ASSERT_EQ(out.problems().size(), 3u);
   for (const base::Problem& p : out.problems())
-    EXPECT_EQ(p.limit, "needs a current loop, and control.speed.output = \"duty\" has none") << p.where;
+    EXPECT_EQ(p.limit, "needs a current loop, which control.speed.output = \"duty\" does not have")
+        << p.where;
 }
 
 }  // namespace SIXSTEP_TEST_FILE

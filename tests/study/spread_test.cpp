@@ -256,12 +256,12 @@ TEST(Spread, RefusesWhatCannotStray) {
   EXPECT_THAT(refusal(relative("motor_override.resistance_ohm", 1.5)),
               HasSubstr("lets motor_override.resistance_ohm reach -0.515, outside the key's range"));
   EXPECT_THAT(refusal(relative("motor_override.resistance_ohm", 0.4, Distribution::normal)),
-              HasSubstr("lower it, or lower cut_sigma"));
+              HasSubstr("lower this value, or lower cut_sigma"));
   Spread none;
   none.key = "supply.voltage_V";
   EXPECT_THAT(refusal(none), HasSubstr("spread[0].relative is missing"));
   none.relative = none.absolute = 0.1;
-  EXPECT_THAT(refusal(none), HasSubstr("the width is given twice"));
+  EXPECT_THAT(refusal(none), HasSubstr("both keys give the width"));
 }
 
 TEST(Spread, RefusesOneQuantityTwice) {

@@ -116,9 +116,10 @@ TEST(BoardLog, RemarksBetweenRowsAndFaultsAreTold) {
     ASSERT_TRUE(log);
     EXPECT_THAT(
         log->notes,
-        ElementsAre("line 4 says \"fault: over-current\", and 1 more does", "line 9 says \"stop\"",
-                    "1 row says that the board missed control periods, up to 3: its values there are late",
-                    "1 row says that the board had a fault, faults 4 first in line 7"));
+        ElementsAre(
+            "line 4 says \"fault: over-current\", and 1 more line says the same", "line 9 says \"stop\"",
+            "1 row says that the board missed up to 3 control periods: the values in such rows are late",
+            "1 row says that the board had a fault, at first faults 4 in line 7"));
     EXPECT_THAT(log->not_used, testing::IsEmpty());
   }
   const auto calm = text::read_board_log("b.csv", "t [us],i_m [mA],missed,faults\n100,1,0,0\n200,2,0,0\n");

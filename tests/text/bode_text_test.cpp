@@ -37,7 +37,7 @@ TEST(BodeText, TellsBothLoopsAndTheirMargins) {
   EXPECT_THAT(text, HasSubstr("locked: current around 5 A, +-0.25 A\n"));
   EXPECT_THAT(text, HasSubstr("designed, dB"));
   EXPECT_THAT(text, HasSubstr("phase margin"));
-  EXPECT_THAT(text, HasSubstr("of the response's rms is at frequencies that were not excited"));
+  EXPECT_THAT(text, HasSubstr("of the response's rms is at frequencies that the multisine does not contain"));
   for (const text::BodeMargin& m : text::bode_margins(s)) EXPECT_THAT(text, HasSubstr(m.designed));
 }
 
@@ -46,7 +46,8 @@ TEST(BodeText, WithoutALinearLoopSaysWhy) {
   const std::string text = text::bode_text("band", s);
   EXPECT_THAT(
       text,
-      HasSubstr("no linear loop to compare with: the current loop is a hysteresis, which is not linear"));
+      HasSubstr(
+          "no linear loop can be compared with the measurement: the current controller is a hysteresis, which is not linear"));
   EXPECT_THAT(text, Not(HasSubstr("designed")));
   EXPECT_THAT(text::bode_csv(s), Not(HasSubstr("designed")));
 }

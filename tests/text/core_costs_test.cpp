@@ -97,12 +97,13 @@ TEST(CoreCosts, APeriodTooShortForAnImageIsToldAsTheImageHasIt) {
   EXPECT_EQ(
       text::too_short_for_images(30e-6),
       "a control period of 30 us is shorter than the ATmega2560's image needs (100 us). Below 69.6 us the "
-      "STM32F303's image may apply a command one period late: check `missed`");
-  EXPECT_EQ(text::too_short_for_images(69.6e-6),
-            "a control period of 69.6 us is shorter than the ATmega2560's image needs, 100 us");
+      "STM32F303's image may apply a command one period late: look for `missed` above 0 in its log");
+  EXPECT_EQ(
+      text::too_short_for_images(69.6e-6),
+      "a control period of 69.6 us is shorter than the shortest period of the ATmega2560's image, 100 us");
   EXPECT_EQ(
       text::too_short_for_images(4.2e-6),
-      "a control period of 4.2 us is shorter than either image needs: 22.3 us on the STM32F303, 100 us on the ATmega2560");
+      "a control period of 4.2 us is shorter than the shortest period of both images: 22.3 us on the STM32F303, 100 us on the ATmega2560");
 }
 
 /// The note prints a least period. With this period, the timer must have at least the counts that the image

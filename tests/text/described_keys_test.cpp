@@ -261,7 +261,7 @@ TEST(DescribedKeys, HelpTellsUnitRangeDefaultAndWords) {
             " default 24\n");
   EXPECT_EQ(
       help_text(find("pwm.alignment")),
-      "pwm.alignment\n  position of the on-time in the period\n  one of the words below\n  default \"edge\"\n"
+      "pwm.alignment\n  where the on-time lies in the period\n  one of the words below\n  default \"edge\"\n"
       "    edge          on-time starts with the period\n"
       "    centre        on-time lies in the middle of the period\n");
 }

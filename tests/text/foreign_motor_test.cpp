@@ -142,7 +142,8 @@ TEST(ForeignMotor, AsksWhatAProgramLeavesOpen) {
               HasSubstr("answer kv=line-peak (K_e = 35.84 mV s) or kv=six-step"));
   EXPECT_THAT(told(simple_foc(R, KV), {"resistance=both", "kv=line-peak"}),
               HasSubstr("has two possible meanings"));
-  EXPECT_THAT(told(vesc(), {"kv=six-step"}), HasSubstr("answer = kv=six-step answers no question of a.file"));
+  EXPECT_THAT(told(vesc(), {"kv=six-step"}),
+              HasSubstr("answer = kv=six-step names no question about a.file"));
   const auto text =
       motor_of_foreign_file("a.ino", simple_foc(R, 150), "m", {"resistance=phase", "kv=six-step"});
   ASSERT_TRUE(text);
@@ -180,8 +181,8 @@ TEST(ForeignMotor, HostileFilesAreNoMotor) {
   EXPECT_THAT(told(vesc().substr(0, vesc().size() - 3)), HasSubstr("ends before its last bracket"));
   EXPECT_THAT(told(odrive().substr(0, 150)), HasSubstr("the file is cut off or damaged"));
   EXPECT_THAT(told("BLDCMotor motor = BLDCMotor(7, 0.1"), HasSubstr("ends before its last bracket"));
-  EXPECT_THAT(told("{\"phase_resistance\": 1}}"), HasSubstr("is no JSON from line 1 on"));
-  EXPECT_THAT(told("{\n\"phase_resistance\" 1}"), HasSubstr("is no JSON from line 2 on"));
+  EXPECT_THAT(told("{\"phase_resistance\": 1}}"), HasSubstr("has a JSON error in line 1 on"));
+  EXPECT_THAT(told("{\n\"phase_resistance\" 1}"), HasSubstr("has a JSON error in line 2 on"));
   EXPECT_THAT(told(std::string(100'000, '{') + "\"phase_resistance\""),
               HasSubstr("ends before its last bracket"));
   // The value is not a number, or a number that no motor has.

@@ -43,7 +43,7 @@ TEST(HostileInput, ABusFasterThanAnyBoardIsRefusedWithItsTimeConstant) {
   EXPECT_THAT(
       told(head + bus),
       ElementsAre(
-          "x.toml:5:17: supply.capacitance_F = 1e-07 makes the bus's time constant with supply.resistance_ohm = 0.2 and the winding 14.4 ns, and no board is below 100 ns; check its unit: a bus has hundreds of microfarads; for a stiff bus remove resistance and capacitance"));
+          "x.toml:5:17: supply.capacitance_F = 1e-07 makes the bus's time constant with supply.resistance_ohm = 0.2 and the winding 14.4 ns, and no board is below 100 ns; check the unit of this value: a bus has hundreds of microfarads; for a stiff bus remove resistance and capacitance"));
   EXPECT_THAT(told(head + "[supply]\nresistance_ohm = 0.2\ncapacitance_F = 1e-5\n"), SizeIs(0));
   EXPECT_THAT(told(head + "[initial]\nbus_V = 1e308\n[supply]\nresistance_ohm = 0.2\ncapacitance_F = 1e-3\n"),
               ElementsAre(HasSubstr("initial.bus_V = 1e308 must be above 0 and at most 100000")));
@@ -69,8 +69,9 @@ TEST(HostileInput, SpeedsOfALoadThatNobodyTellsApartAreRefused) {
     return told(head + "[load]\nat_speeds_rad_s = [" + speed + ", 0, 300]\nat_speeds_Nm = [0.1, 0, 0.1]\n");
   };
   EXPECT_THAT(table("-1e-17"),
-              ElementsAre(HasSubstr("load.at_speeds_rad_s = 0 is too close to the speed before")));
-  EXPECT_THAT(table("1"), ElementsAre(HasSubstr("load.at_speeds_rad_s = 0 must be above the speed before")));
+              ElementsAre(HasSubstr("load.at_speeds_rad_s = 0 is too close to the previous speed")));
+  EXPECT_THAT(table("1"),
+              ElementsAre(HasSubstr("load.at_speeds_rad_s = 0 must be above the previous speed")));
   EXPECT_THAT(table("-1e-5"), SizeIs(0));
 }
 
@@ -159,8 +160,9 @@ TEST(HostileInput, AColumnThatTheModeDoesNotHaveIsRefusedAndNotWrittenAsNoNumber
   const std::string columns = "record.columns = [\"i_m_A\", \"i_ref_A\"]\n[control]\nmode = ";
   EXPECT_THAT(
       told(head + columns + "\"duty\"\n"),
-      ElementsAre("x.toml:3:18: record.columns = \"i_ref_A\" has no value in this control.mode; remove it, "
-                  "or set a control.mode that has this reference"));
+      ElementsAre(
+          "x.toml:3:18: record.columns = \"i_ref_A\" has no value in this control.mode; remove this column, "
+          "or set a control.mode that has this reference"));
   EXPECT_THAT(told(head + columns + "\"current\"\n"), SizeIs(0));
 }
 
@@ -175,7 +177,7 @@ TEST(HostileInput, AKeyOfAHundredThousandPartsDoesNotTakeTheStack) {
   EXPECT_THAT(
       told(head + repeated("a.", 100'000) + "b = 1\n"),
       ElementsAre(
-          "x.toml:3:66: nests deeper than 32 tables or lists; remove levels: no key is deeper than control.current.settle_s"));
+          "x.toml:3:66: nests deeper than 32 tables or lists; remove levels: the deepest keys have three parts, as control.current.settle_s"));
   EXPECT_THAT(told(head + "[" + repeated("a.", 100'000) + "b]\n"), ElementsAre(HasSubstr("nests deeper")));
   EXPECT_THAT(told(head + "a = " + repeated("[", 100'000)), ElementsAre(HasSubstr("nests deeper")));
   EXPECT_THAT(told(head + "a = " + repeated("{a = ", 100'000)), ElementsAre(HasSubstr("nests deeper")));
@@ -244,7 +246,7 @@ TEST(HostileInput, ATableOfRowsIsHeldToTheSameNumbers) {
   EXPECT_THAT(
       told_of_rows("t_s,i_A\n0,1\n1e-3,1e308\n"),
       ElementsAre(
-          "r.csv:3: value 1e+308 must lie in -1000000 to 1000000, in A; check the unit of this column"));
+          "r.csv:3: value 1e+308 must lie in -1000000 to 1000000, in A; correct the unit in this column's heading"));
   EXPECT_THAT(told_of_rows("0,1\n1e10,2\n"),
               ElementsAre(HasSubstr("time 10000000000 must lie in -9000000 to 9000000, in s")));
   for (const char* none : {"nan", "inf", "-inf", "1e999"})

@@ -146,8 +146,10 @@ TEST(KnownLogs, ColumnsOfAnotherMeaningAreNamedWithTheReason) {
   std::string text;
   for (const text::NotUsed& column : log->not_used) text += column.column + ": " + column.reason + "\n";
   EXPECT_THAT(text, HasSubstr("current_in: a mean over PWM periods"));
-  EXPECT_THAT(text,
-              HasSubstr("q_axis_current: of the rotor's axes, and the simulated drive commutates in blocks"));
+  EXPECT_THAT(
+      text,
+      HasSubstr(
+          "q_axis_current: a value of the rotor's d or q axis; the simulated drive is a six-step drive"));
 }
 
 TEST(KnownLogs, OfSeveralDrivesOneIsChosen) {
@@ -159,7 +161,7 @@ TEST(KnownLogs, OfSeveralDrivesOneIsChosen) {
   EXPECT_EQ(told(ardupilot(3), 5), "esc 5 is no ESC of a.csv; choose one: 0, 1, 2");
   EXPECT_EQ(told(blackbox("eRPM[0], eRPM[1], "), {}), "esc is missing: a.csv has 2 motors; choose one: 0, 1");
   EXPECT_EQ(told(blackbox("eRPM[0], eRPM[1], "), 2), "esc 2 is no motor of a.csv; choose one: 0, 1");
-  EXPECT_THAT(told(vesc(), 0), HasSubstr("esc has no meaning: a.csv is no log of several ESCs"));
+  EXPECT_THAT(told(vesc(), 0), HasSubstr("esc has no effect, because a.csv is not a log of several ESCs"));
   for (const int n : {0, 2}) {
     const auto log = text::read_board_log("a.csv", ardupilot(3), wanted(true, n));
     ASSERT_TRUE(log) << to_string(log.problems()[0]);

@@ -90,9 +90,9 @@ TEST_F(MotorFile, EachSlipIsOneClearErrorWithItsCure) {
       {"winding = \"12N14P\"\n" + sheet_with("pole_pairs = 14"),
        "m.toml:8:14: pole_pairs = 14 is the number of poles of winding = \"12N14P\"; write pole_pairs = 7"},
       {sheet_with("line_10_terminal_resistance_ohm = 1.03"),
-       "m.toml:8:35: line_10_terminal_resistance_ohm = 1.03 is given already, as resistance_ohm; keep one of the two keys, which have the same meaning"},
+       "m.toml:8:35: line_10_terminal_resistance_ohm = 1.03 is already given, as resistance_ohm; keep one of the two keys, which have the same meaning"},
       {sheet_with("back_emf_mV_s = 16"),
-       "m.toml:8:17: back_emf_mV_s = 16 contradicts torque_constant_mNm_A, which means 16.75; keep one of the two"},
+       "m.toml:8:17: back_emf_mV_s = 16 contradicts torque_constant_mNm_A, which means 16.75; remove one of the two keys"},
       {sheet_with("stall_current_A = { value = 23.3, range = [24, 25] }"),
        "m.toml:8:43: stall_current_A.range = [24, 25] does not contain the value, 23.3; write the least and the largest value of all sources, including this value"},
       {sheet_with("stall_current_A = { value = 23.3, range = [25, 24] }"),
@@ -118,7 +118,7 @@ TEST_F(MotorFile, AValueInAnotherSpellingIsToldAsItStands) {
   ASSERT_FALSE(scenario);
   EXPECT_EQ(
       to_string(scenario.problems().front()),
-      "x.toml:7:27: motor_override.inertia_with_brake_kgm2 = 6e-7 is less than the rotor's own, inertia_kgm2 = 6e-06; swap the two values: a brake adds inertia");
+      "x.toml:7:27: motor_override.inertia_with_brake_kgm2 = 6e-7 is less than the rotor's inertia, inertia_kgm2 = 6e-06; swap the two values: a brake adds inertia");
 }
 
 /// Visits a sheet and stores one quantity.

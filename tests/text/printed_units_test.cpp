@@ -74,7 +74,7 @@ TEST(PrintedUnits, HertzAndMinutesElsewhere) {
   EXPECT_NEAR(read(motor + "back_emf_mV_s = \"5 mWb\"\n").back_emf_mV_s->value, 10.0, 0.0);
   EXPECT_THAT(told(motor + "viscous_friction_Nm_s = \"1e-3 mNm/Hz\"\n"), HasSubstr("which may count turns"));
   EXPECT_THAT(told(motor + "back_emf_constant_V_krpm = { value = \"4.5 mV min\", frame = \"line-peak\" }\n"),
-              HasSubstr("the unit multiplies by minutes"));
+              HasSubstr("this unit contains minutes as a factor"));
   EXPECT_THAT(told(motor + "no_load_speed_rpm = \"300 1/s\"\n"), HasSubstr("cannot be converted to rpm"));
   EXPECT_NEAR(read(motor + "no_load_speed_rpm = \"6000 erpm\"\n").no_load_speed_rpm->value, 3000.0, 1e-12);
 }

@@ -146,8 +146,9 @@ TEST(RecordedDoubts, AKnownColumnThatIsNotUsedSaysTrulyWhy) {
   EXPECT_THAT(
       notes("u_a,u_b [V]"),
       ElementsAre("not used: u_a, u_b (a voltage of a terminal; the line-to-line voltages are used)"));
-  EXPECT_THAT(notes("hall1,H2,code"),
-              ElementsAre("not used: hall1, H2 (a Hall line, no voltage), code (Hall codes, no voltage)"));
+  EXPECT_THAT(
+      notes("hall1,H2,code"),
+      ElementsAre("not used: hall1, H2 (a Hall line, not a voltage), code (Hall codes, not a voltage)"));
   EXPECT_THAT(notes("i_a [A],speed"),
               ElementsAre("not used: i_a (in A), speed (its heading has no known meaning)"));
   EXPECT_THAT(notes("u_a [mA]"), ElementsAre("not used: u_a (in mA)"));
@@ -193,13 +194,13 @@ TEST(RecordedDoubts, WhatIsAskedForDecidesBetweenVoltagesOfTwoKinds) {
 TEST(RecordedDoubts, AHallLineIsTakenForNoVoltage) {
   const Seen found = seen(plain("time [s],CH1,hall1\n"), between_lines);
   EXPECT_THAT(found.channels, ElementsAre("CH1"));
-  EXPECT_THAT(found.notes, ElementsAre("not used: hall1 (a Hall line, no voltage)"));
+  EXPECT_THAT(found.notes, ElementsAre("not used: hall1 (a Hall line, not a voltage)"));
 }
 
 TEST(RecordedDoubts, TwoColumnsOfOneNameAreToldApartByPlace) {
   const std::string file = plain("time [s],u_ab,u_ab\n");
   EXPECT_THAT(seen(file).problem,
-              HasSubstr("has 2 columns \"u_ab\"; name one column by its place: column 2 or column 3"));
+              HasSubstr("has 2 columns \"u_ab\"; name one column by its number: column 2 or column 3"));
   const auto named = [](std::vector<std::string> voltages) {
     return BenchColumns{.hall = {},
                         .voltages = std::move(voltages),

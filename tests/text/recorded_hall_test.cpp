@@ -96,10 +96,10 @@ TEST(RecordedHall, SigrokAsItComes) {
     EXPECT_NEAR(found.log.t_s.back(), 0.2, 2e-3);
   }
   EXPECT_THAT(seen(file).notes,
-              Contains("D0, D1 and D2 are taken for H1, H2 and H3, in the order of their columns"));
+              Contains("the columns D0, D1 and D2 are read as H1, H2 and H3 in this order"));
   EXPECT_THAT(
       seen(file, {"logic"}).problem,
-      HasSubstr("has 3 columns \"logic\"; name one column by its place: column 2, column 3 or column 4"));
+      HasSubstr("has 3 columns \"logic\"; name one column by its number: column 2, column 3 or column 4"));
 }
 
 TEST(RecordedHall, SigrokWithoutTime) {
@@ -154,7 +154,7 @@ TEST(RecordedHall, AKnownColumnThatIsNotUsedSaysTrulyWhy) {
     return found.notes;
   };
   EXPECT_THAT(notes("time,hall1,hall2,hall3,code", "5"),
-              ElementsAre("not used: code (Hall codes; the three lines are used)"));
+              ElementsAre("not used: code (Hall codes; the three Hall lines are used instead)"));
   EXPECT_THAT(notes("time,hall1,hall2,hall3,u_bc,u_ca", "1,2"),
               ElementsAre("not used: u_bc, u_ca (a line-to-line voltage; u_ab and u_bc are both needed)"));
   EXPECT_THAT(
@@ -166,7 +166,8 @@ TEST(RecordedHall, AKnownColumnThatIsNotUsedSaysTrulyWhy) {
   std::string file = "time,hall1,hall\n";
   for (int row = 0; row < 300; ++row)
     file += fmt::format("{:.5f},{},{}\n", row * 5e-5, codes[row / 10 % 6] >> 2, codes[row / 10 % 6]);
-  EXPECT_THAT(seen(file).notes, ElementsAre("not used: hall1 (a Hall line; the codes are used)"));
+  EXPECT_THAT(seen(file).notes,
+              ElementsAre("not used: hall1 (a Hall line; the column of Hall codes is used instead)"));
 }
 
 /// If u_a and u_b were read as u_ab and u_bc, the flux linkage would be 1/sqrt(3) of the right value, and the

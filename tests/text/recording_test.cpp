@@ -167,7 +167,8 @@ TEST(Recording, TimesThatDoNotTell) {
               StartsWith("r.csv: has no column of time: it has sample, u_ab"));
   EXPECT_THAT(
       told_of_emf("time,u_ab\n0,1\n1,2\n2,3\n"),
-      StartsWith("r.csv: has no time: its column time only numbers the rows; write the heading time [s]"));
+      StartsWith(
+          "r.csv: has no time: its column time contains only row numbers; write the heading time [s]"));
   EXPECT_THAT(told_of_emf(scope(2) + "0.001,1\n"),
               StartsWith("r.csv: time 0.001 in row 201 does not rise; give the rows in the order"));
   EXPECT_THAT(told_of_emf("time [V],u_ab [V]\n0,1\n1,2\n"),
@@ -207,7 +208,7 @@ TEST(Recording, AnIntervalBesideATime) {
 TEST(Recording, WrongColumns) {
   EXPECT_EQ(
       told_of_hall(scope(3)),
-      "r.csv: has no columns of Hall lines: it has time, u_ab; write the headings hall1, hall2, hall3, or hall for a column of codes, or name the columns");
+      "r.csv: has no columns of Hall lines: it has time, u_ab; write the headings hall1, hall2 and hall3, or hall above a column of codes, or name the columns with --hall");
   EXPECT_EQ(
       told_of_hall(hall_log(36),
                    {.hall = {"hall1", "hall2", "hal3"}, .voltages = {}, .between = {}, .interval_s = {}}),

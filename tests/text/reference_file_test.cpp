@@ -43,7 +43,7 @@ TEST(ReferenceFile, IsReadWhateverPartsItsCells) {
 TEST(ReferenceFile, WhichOfManyColumnsIsMeantIsNotGuessed) {
   EXPECT_THAT(told("t [s],x [A],i [A]\n0,0,0\n0.1,3,100\n"),
               ElementsAre(AllOf(HasSubstr("r.csv:2: has 3 columns: \"x\", \"i\""),
-                                HasSubstr("name the wanted column"))));
+                                HasSubstr("name the column in reference.column"))));
   EXPECT_THAT(told("0,0,0\n0.1,3,100\n"), ElementsAre(HasSubstr("keep two columns")));
   const base::Result<ShapeRows> shape = shape_rows("s.csv", "angle [deg],e,f\n0,0,0\n360,0,0\n");
   ASSERT_FALSE(shape);

@@ -160,13 +160,12 @@ TEST_F(Family, ANameThatLeadsNowhereOrInACircleIsTold) {
   EXPECT_THAT(
       complaints("extends = \"x.toml\"\n" + head),
       ElementsAre(
-          "x.toml:1:11: extends = \"x.toml\" names a file that itself extends this file; put the common keys into a third file"));
+          "x.toml:1:11: extends = \"x.toml\" names a file that extends this file; put the common keys into a third file"));
   write("a.toml", "extends = [\"b.toml\"]\n");
   write("b.toml", "extends = [\"./bases/../a.toml\"]\n");
-  EXPECT_THAT(
-      complaints("extends = \"a.toml\"\n" + head),
-      ElementsAre(::testing::StartsWith(
-          "b.toml:1:12: extends = \"./bases/../a.toml\" names a file that itself extends this file")));
+  EXPECT_THAT(complaints("extends = \"a.toml\"\n" + head),
+              ElementsAre(::testing::StartsWith(
+                  "b.toml:1:12: extends = \"./bases/../a.toml\" names a file that extends this file")));
   write("syntax.toml", "duration_s = 20 ms\n");
   EXPECT_THAT(complaints("extends = \"syntax.toml\"\n"),
               ElementsAre(::testing::StartsWith("syntax.toml:1:17: ")));

@@ -37,7 +37,7 @@ TEST_F(SlipsAtOnce, AllSlipsAreToldAtOnce) {
       HasSubstr(":3:1: polar is not a key here; "),
       HasSubstr(":4:18: resistance_ohm = 1.03 must say its frame"),
       HasSubstr(":5:17: inductance_mH = \"0.572 mF\" has the unit mF"),
-      HasSubstr(":7:17: back_emf_mV_s = 16 contradicts torque_constant_mNm_A, which means 16.75; keep one"),
+      HasSubstr(":7:17: back_emf_mV_s = 16 contradicts torque_constant_mNm_A, which means 16.75; remove one"),
       HasSubstr(":8:16: inertia_gcm2 = -135 must be above 0; it means: moment of inertia"),
       HasSubstr(":9:1: inertias is not a key here; "),
       HasSubstr(":10:18: cogging_orders = 13 must be a multiple of the number of poles, 16; "),

@@ -77,8 +77,9 @@ TEST(Units, AWrongOneIsToldWithThoseThatFit) {
             "has the unknown unit MS; did you mean ms? Units that fit: s, ms, us or min");
   EXPECT_EQ(refused("20", "s"), "lacks its unit; write 20, which is in s, or \"20 s\"");
   EXPECT_EQ(refused("20", ""), "must be a number without quotes; write 20");
-  EXPECT_EQ(refused("20 ms", ""),
-            "has the unit ms, and this key is a plain number; write the number alone, or in %");
+  EXPECT_EQ(
+      refused("20 ms", ""),
+      "has the unit ms, and this key takes a number without a unit; write the number without a unit, or with %");
   EXPECT_EQ(refused("0,5 A", "A"), "has a decimal comma; write a point, not a comma, as the decimal mark");
   EXPECT_EQ(refused("1e400 A", "A"),
             "is outside the range of a double, 4.9e-324 to 1.8e308; correct its exponent");
@@ -219,7 +220,7 @@ TEST(Units, OfALimitAreRefusedByMetricAndSignal) {
       "x.toml:6:7: require.max = \"2 A\" has the unit A, which cannot be converted to s; units that fit: s, ms, us or min\n");
   EXPECT_EQ(
       told("metric = \"efficiency\"\nmin = \"8 W\"\n"),
-      "x.toml:5:7: require.min = \"8 W\" has the unit W, and this key is a plain number; write the number alone, or in %\n");
+      "x.toml:5:7: require.min = \"8 W\" has the unit W, and this key takes a number without a unit; write the number without a unit, or with %\n");
   EXPECT_EQ(told("metric = \"max\"\nmax = \"2\"\n"),
             "x.toml:5:7: require.max = \"2\" lacks its unit; write 2, which is in A, or \"2 A\"\n");
   // The metric is misspelt, so the unit is not known. Only the misspelt word is reported.

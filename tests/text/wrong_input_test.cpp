@@ -123,7 +123,7 @@ TEST_F(WrongInput, MissingRequiredKeysPointAtTheirTable) {
           "x.toml:1:1: motor is missing; write motor = ..: motor file: a path, or a name looked up beside "
           "the scenario, in the data folder and in the built-in list",
           "x.toml:1:1: duration_s is missing; write duration_s = ..: simulated time, in s",
-          "x.toml:2:1: require.metric is missing; write metric = ..: figure that is computed from the signal"));
+          "x.toml:2:1: require.metric is missing; write metric = ..: name of the figure that is computed from the signal"));
 }
 
 TEST_F(WrongInput, MissingMotor) {
@@ -203,7 +203,7 @@ TEST_F(WrongInput, ContradictoryGainsAreToldOnceAndWhere) {
       complaints(head + "[control]\nmode = \"current\"\n[control.current]\nsettle_s = 1e-3\ndamping = 0.9\n"
                         "d1 = 4.5\nd0 = -4.04\n"),
       ElementsAre(
-          "x.toml:8:6: control.current.d1 = 4.5 contradicts settle_s and damping, which compute the gains; keep only one form: d1 and d0, kp with ki or ki_per_s, or settle_s and damping"));
+          "x.toml:8:6: control.current.d1 = 4.5 contradicts settle_s and damping, which compute the gains; remove all forms of the gains except one: d1 and d0, kp with ki or ki_per_s, or settle_s and damping"));
 }
 
 TEST_F(WrongInput, EverythingAtOnceInTheOrderOfTheLines) {
@@ -276,7 +276,7 @@ TEST_F(WrongInput, AStepOfASignalThatIsNotControlledNeedsItsLevel) {
       complaints(head + "[control]\nmode = \"duty\"\n[reference]\nvalue = 0.5\n[[require]]\nmetric = "
                         "\"overshoot\"\nsignal = \"current\"\nmax = 1\n"),
       ElementsAre(
-          "x.toml:7:1: require.level is missing, and the reference belongs to another signal; give the level that the signal must reach, in the signal's unit"));
+          "x.toml:7:1: require.level is missing, and the reference belongs to another signal; give level, the value that the signal must reach, in the signal's unit"));
 }
 
 TEST_F(WrongInput, FrequentSlipsOfSyntaxHaveTheirCure) {

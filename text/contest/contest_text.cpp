@@ -158,7 +158,7 @@ std::string missed_speed(const ContestRow& row) {
     const double x = (*row.nominal)->figures[k];
     if (columns[k].holds(x)) continue;
     const auto speed = [](double rad_s) { return quantity_text(rad_s, "rad/s", 4); };
-    return fmt::format("{} is {} on average, required are {} to {}", columns[k].name,
+    return fmt::format("{} is {} on average; the requirement is {} to {}", columns[k].name,
                        std::isnan(x) ? std::string("no value") : speed(x),
                        speed(columns[k].min.value_or(0.0)), speed(columns[k].max.value_or(0.0)));
   }
@@ -189,22 +189,22 @@ std::vector<std::string> contest_notes(const Contest& c) {
     else if (!problem.empty())
       notes.push_back(fmt::format("{} stopped: {}", controller_name(c, n), problem));
     else if (c.rows[n].nominal && !c.rows[n].nominal_held)
-      notes.push_back(fmt::format(
-          "{} does not hold the required speed ({}), so that none of its figures counts as the least",
-          controller_name(c, n), missed_speed(c.rows[n])));
+      notes.push_back(
+          fmt::format("{} does not hold the required speed ({}). None of its figures counts as the least",
+                      controller_name(c, n), missed_speed(c.rows[n])));
     else if (c.rows[n].nominal_held && !analysis::may_win(c, n))
       notes.push_back(fmt::format(
-          "{} starts with a peak of {}, {:.1f} times the current of the torque limit. Commutation and ripple explain at most {}, so that none of its figures counts as the least",
+          "{} starts with a peak of {}, {:.1f} times the current of the torque limit. Commutation and ripple explain a peak of at most {}. None of the controller's figures counts as the least",
           controller_name(c, n), quantity_text(c.rows[n].values[analysis::peak_figure], "A", 3),
           c.rows[n].values[analysis::peak_figure] / c.bench.design.current_at_full_torque_A,
           quantity_text(analysis::most_peak_A(c.bench), "A", 3)));
     if (scenario && scenario->control.drive == study::FirmwareKind::own)
-      notes.push_back(
-          fmt::format("{} runs with the preset numbers of its file, not with those of control.own.number",
-                      controller_name(c, n)));
+      notes.push_back(fmt::format(
+          "{} runs with the preset numbers of its file, not with the numbers in control.own.number",
+          controller_name(c, n)));
     if (scenario && scenario->control.speed.output == study::SpeedOutput::duty)
       notes.push_back(fmt::format(
-          "{} has no current loop, so that the torque limit does not limit its current; instead its setpoint changes only as fast as the torque limit allows",
+          "{} has no current loop, so the torque limit does not limit its current. Instead, its setpoint changes only as fast as the torque limit allows",
           controller_name(c, n)));
   }
   return notes;
@@ -232,11 +232,10 @@ std::vector<std::string> contest_legend(const Contest& c) {
           base::rounded(analysis::settled_part * c.bench.course.high_rad_s, 3)),
       "lowest: slowest speed that the controller holds against the full load; each try halves the speed",
       fmt::format(
-          "ripple to turn-ons: measured at the high speed against half of the full load; slow swing, slow ripple: measured at {} rad/s against the full load",
+          "columns from ripple to turn-ons: measured at the high speed against half of the full load; columns slow swing and slow ripple: measured at {} rad/s against the full load",
           base::rounded(c.bench.course.slow_rad_s, 4)),
       fmt::format(
-          "tick, flash: most instructions of a tick and bytes of flash on {} in {}; -: not counted; tools/own_cost.sh counts "
-          "a controller of your own",
+          "tick: largest number of instructions in one tick; flash: bytes of code, both on {} in {}. A dash means not counted. To count your own controller, run tools/own_cost.sh.",
           contest_core, arithmetic)};
 }
 

@@ -106,16 +106,17 @@ std::vector<std::string> winners(const Contest& c) {
   for (std::size_t f = 0; f < std::size(contest_figures); ++f) {
     const Ranked r = ranked(c, f, [](std::size_t) { return true; });
     if (r.first && is_alone(c, f))
-      wins[*r.first].push_back(fmt::format("{} ({}, the others never)", contest_figures[f].phrase,
+      wins[*r.first].push_back(fmt::format("{} ({}; the other controllers never settle)",
+                                           contest_figures[f].phrase,
                                            contest_cell(c, f, c.rows[*r.first].values[f])));
     if (!r.first || !r.second) continue;
     const double least = c.rows[*r.first].values[f], next = c.rows[*r.second].values[f];
     if (are_alike(least, next))
       even[sharing(c, f, least)].emplace_back(contest_figures[f].phrase);
     else
-      wins[*r.first].push_back(
-          fmt::format("{} ({}, the next {})", contest_figures[f].phrase, contest_cell(c, f, least),
-                      least > 0.0 ? larger(least, next, contest_figures[f]) : contest_cell(c, f, next)));
+      wins[*r.first].push_back(fmt::format(
+          "{} ({}; the next controller: {})", contest_figures[f].phrase, contest_cell(c, f, least),
+          least > 0.0 ? larger(least, next, contest_figures[f]) : contest_cell(c, f, next)));
   }
   std::vector<std::string> out;
   for (std::size_t n = 0; n < wins.size(); ++n)
@@ -171,11 +172,14 @@ std::vector<std::string> six_step_or_field(const Contest& c) {
     else
       more.push_back(fmt::format("{} ({})", phrase, larger(other, own, contest_figures[f])));
   }
-  std::vector<std::string> out{fmt::format("Six-step or field-oriented? Here {}.", answer(ripple, loss))};
+  std::vector<std::string> out{
+      fmt::format("Six-step or field-oriented? On this motor, {}.", answer(ripple, loss))};
   if (!less.empty())
     out.push_back(
-        fmt::format("The best six-step controller of each figure has more: {}.", fmt::join(less, ", ")));
-  if (!more.empty()) out.push_back(fmt::format("Field-oriented has more: {}.", fmt::join(more, ", ")));
+        fmt::format("Figures that are larger with the best six-step controller: {}.", fmt::join(less, ", ")));
+  if (!more.empty())
+    out.push_back(
+        fmt::format("Figures that are larger with field-oriented control: {}.", fmt::join(more, ", ")));
   if (!same.empty()) out.push_back(fmt::format("Equal within 5 %: {}.", fmt::join(same, ", ")));
   return out;
 }

@@ -14,7 +14,7 @@ base::Problem not_counted(std::string limit) {
   return {.where = {},
           .value = {},
           .limit = std::move(limit),
-          .cure = "write the count with tools/own_cost.sh --json"};
+          .cure = "make this file with tools/own_cost.sh --json"};
 }
 
 std::string whole_at(const CountedJson& from, const char* pointer) {
@@ -29,7 +29,7 @@ base::Result<OwnCost> own_cost_of(std::string_view json) {
   const CountedJson all = CountedJson::parse(json, nullptr, false);
   if (!all.is_object() || !all.contains("controller") || !all["controller"].is_string() ||
       !all.contains("cores") || !all["cores"].is_array())
-    return not_counted("is not a count of a user's controller");
+    return not_counted("does not contain the instruction counts of a user's controller");
   for (const CountedJson& row : all["cores"]) {
     if (!row.is_object() || row.value("core", CountedJson{}) != contest_core) continue;
     OwnCost out{all["controller"].get<std::string>(),
@@ -37,7 +37,8 @@ base::Result<OwnCost> own_cost_of(std::string_view json) {
     if (out.cost.tick.empty() || out.cost.flash_bytes.empty()) break;
     return out;
   }
-  return not_counted("has no count of the " + std::string(contest_core) + ", which the table shows");
+  return not_counted("does not contain the instruction count on the " + std::string(contest_core) +
+                     ", which the table shows");
 }
 
 }  // namespace text

@@ -65,7 +65,7 @@ std::string timing(const study::Compiled& c, const study::Clearance* clearance) 
          constant("bool", "pwm_centre_aligned", flag(m.centre_aligned),
                   "true: centred pulse; false: pulse at the period's start") +
          constant("std::uint64_t", "dead_time_ps", fmt::format("{:.0f}", dead),
-                  dead > 0 ? us(dead) : "none: an image needs a dead time") +
+                  dead > 0 ? us(dead) : "no dead time: firmware for a bridge needs one") +
          (c.field ? ""
                   : constant("bool", "commutate_at_sample", flag(c.board.commutate_at_sample),
                              "true: at the sample; false: in the Hall interrupt")) +
@@ -103,7 +103,8 @@ std::string board_constants(const ConfigHeader& w, const study::Compiled& c) {
          constant("int", "adc_bits", std::to_string(sensors.adc_bits), "bits of each current converter") +
          constant("double", "adc_amperes_per_count", hex_float(lsb), sixstep::base::six_digits(lsb) + " A") +
          constant("double", "setpoint_range", hex_float(range),
-                  sixstep::base::six_digits(range) + " in the mode's unit, at each end of a potentiometer");
+                  sixstep::base::six_digits(range) +
+                      ": setpoint at each end of a potentiometer, in the mode's unit");
 }
 
 /// C++ text of a constant and of the function that computes it.
@@ -209,7 +210,7 @@ base::Problems too_small(const ConfigHeader& w, const study::Compiled& c) {
            fmt::format(
                "is less than {} {}, the largest value that this scenario contains in its reference, limits, supply or initial state",
                sixstep::base::six_digits(asked), unit),
-           "give the largest value that the drive may measure or receive, or remove it from the range"});
+           "give the largest value that the drive may measure or receive, or leave this --range out"});
   };
   look("current_A", w.range.current_A, least.current_A, "A");
   look("speed_rad_s", w.range.speed_rad_s, least.speed_rad_s, "rad/s");
@@ -267,7 +268,7 @@ base::Result<std::string> fixed_header(const ConfigHeader& w, const study::Compi
                          std::string(base::word(study::arithmetic_choices,
                                                 w.arithmetic.value_or(w.scenario.control.arithmetic))),
                          "is fixed point, for which the field-oriented drive has no proven scaling",
-                         "take float or double"};
+                         "set --arithmetic float or --arithmetic double"};
   if (base::Problems problems = too_small(w, c); !problems.empty()) return problems;
   const design::OperatingRange range = range_of(w, c);
   const base::Result<design::Bases> bases = chosen_bases<Scalar>(w, c, range);
@@ -303,13 +304,13 @@ base::Result<std::string> config_header(const ConfigHeader& w) {
         "use letters, digits and _, for example product or product::left_wheel, but no C++ keyword, std or sixstep"};
   if (w.scenario.control.mode == control::Mode::off)
     return base::Problem{"control.mode", "off", "leaves no drive to export",
-                         "set it to duty, current, speed or position"};
+                         "set control.mode to duty, current, speed or position"};
   // A header would configure the library's drive, but the run used the user's controller.
   if (w.scenario.control.drive == study::FirmwareKind::own)
     return base::Problem{
         "control.drive", "\"own\"",
         "has its constants in its own source, and a header configures the library's drives only",
-        "compile that source for the chip"};
+        "compile the controller's source for the chip instead of exporting a header"};
   const base::Result<study::Compiled> c = study::compile(w.scenario);
   if (!c) return c.problems();
   const study::Arithmetic arithmetic = w.arithmetic.value_or(w.scenario.control.arithmetic);

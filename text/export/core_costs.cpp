@@ -115,13 +115,13 @@ std::string too_short_for_images(double period_s) {
     return fmt::format("{} us", sixstep::base::shortened(1e6 * least_s, 3, sixstep::base::Towards::up));
   };
   if (period_s >= stm32_sure_period_s)
-    return fmt::format("{} the ATmega2560's image needs, {}", period, atmega);
+    return fmt::format("{} the shortest period of the ATmega2560's image, {}", period, atmega);
   if (period_s >= stm32_least_period_s)
     return fmt::format(
-        "{} the ATmega2560's image needs ({}). Below {} the STM32F303's image may apply a command one period late: check `missed`",
+        "{} the shortest period of the ATmega2560's image ({}). Below {} the STM32F303's image may apply a command one period late: look for `missed` above 0 in its log",
         period, atmega, stm32(stm32_sure_period_s));
-  return fmt::format("{} either image needs: {} on the STM32F303, {} on the ATmega2560", period,
-                     stm32(stm32_least_period_s), atmega);
+  return fmt::format("{} the shortest period of both images: {} on the STM32F303, {} on the ATmega2560",
+                     period, stm32(stm32_least_period_s), atmega);
 }
 
 std::string other_than_stm32_image(const study::Scenario& s) {

@@ -104,14 +104,17 @@ void add_pair(PlantVariables& plant) {
   plant.at(first_of_pair);
   plant.input(boolean, "enabled", "", enabled_words);
   plant.input(integer, "source", "",
-              "leg whose upper switch carries the current to the motor: 0, 1, 2 are a, b, c");
-  plant.input(integer, "sink", "", "leg whose lower switch carries the current back; another leg than source",
-              1.0);
-  plant.input(integer, "chopping", "", "off part of the period: 0 soft, 1 hard, 2 complementary");
-  plant.input(integer, "chopped", "", "switch that the duty chops: 0 the upper switch, 1 the lower switch");
+              "leg whose upper switch carries the current to the motor: 0 is a, 1 is b, 2 is c");
+  plant.input(
+      integer, "sink", "",
+      "leg whose lower switch carries the current back: 0 is a, 1 is b, 2 is c; must differ from source",
+      1.0);
+  plant.input(integer, "chopping", "", "chopping of the driven pair: 0 soft, 1 hard, 2 complementary");
+  plant.input(integer, "chopped", "",
+              "switch of the driven pair that is chopped: 0 the upper switch, 1 the lower switch");
   plant.input(real, "duty", "1", "duty, 0 to 1");
   plant.input(real, "overlap", "1",
-              "-1 to 1: duty of the third leg's upper switch; below 0: of its lower switch");
+              "duty of the third leg: from 0 to 1 of its upper switch, from 0 to -1 of its lower switch");
 }
 
 void add_legs(PlantVariables& plant) {
@@ -119,9 +122,10 @@ void add_legs(PlantVariables& plant) {
   plant.at(first_of_legs);
   plant.input(boolean, "enabled", "", enabled_words);
   plant.three(FmiRole::input, integer, "leg_states", "leg_{}_state", "",
-              "0 off, 1 low, 2 high, 3 chopped by its duty");
-  plant.three(FmiRole::input, integer, "leg_switches", "leg_{}_switches", "",
-              "switches of the pulse: 0 complementary, 1 upper, 2 lower, 3 lower first");
+              "state of the leg: 0 off, 1 lower switch on, 2 upper switch on, 3 chopped by its duty");
+  plant.three(
+      FmiRole::input, integer, "leg_switches", "leg_{}_switches", "",
+      "switches that the leg's duty chops: 0 both (complementary), 1 upper, 2 lower, 3 both with the lower switch first");
   plant.three(FmiRole::input, real, "leg_duties", "leg_{}_duty", "1", "duty, 0 to 1");
 }
 
@@ -130,14 +134,18 @@ void add_measured(const study::Scenario& s, PlantVariables& plant) {
   plant.at(first_measured);
   plant.three(FmiRole::output, real, "measured_currents_A", "measured_i_{}_A", "A",
               "phase current as the controller measures it at the last control tick");
-  plant.output(real, "measured_speed_rad_s", "rad/s", "speed as measured at the last control tick");
-  plant.output(real, "measured_position_deg", "deg", "position as measured, counted over turns");
-  plant.output(real, "measured_bus_V", "V", "bus voltage as measured");
+  plant.output(real, "measured_speed_rad_s", "rad/s",
+               "speed that the controller measures at the last control tick");
+  plant.output(real, "measured_position_deg", "deg",
+               "position that the controller measures at the last control tick, counted over turns");
+  plant.output(real, "measured_bus_V", "V",
+               "bus voltage that the controller measures at the last control tick");
   plant.output(real, "measured_magnet_cos", "1",
-               "cosine of the magnet's electrical angle from phase a, as measured");
+               "cosine of the magnet's electrical angle from phase a, measured at the last control tick");
   plant.output(real, "measured_magnet_sin", "1",
-               "sine of the magnet's electrical angle from phase a, as measured");
-  plant.output(integer, "measured_hall", "", "Hall code as measured, H1 H2 H3 as bits 2, 1, 0");
+               "sine of the magnet's electrical angle from phase a, measured at the last control tick");
+  plant.output(integer, "measured_hall", "",
+               "Hall code measured at the last control tick, H1 H2 H3 as bits 2, 1, 0");
   plant.output(real, "setpoint", std::string(study::reference_unit(s.control.mode)),
                "the scenario's reference at the last control tick, in the unit of control.mode");
 }
@@ -151,13 +159,13 @@ void add_counts(const study::Scenario& s, PlantVariables& plant) {
   if (s.sensors.currents == sixstep::rig::CurrentMeasurement::phases) {
     plant.at(first_count);
     plant.three(FmiRole::output, integer, "current_counts", "current_counts_{}", "",
-                "counts of the current's converter" + when);
+                "counts of the phase current's converter" + when);
   }
   if (!s.sensors.bus_range_V) return;
   plant.at(first_count + 3);
   plant.three(FmiRole::output, integer, "terminal_counts", "terminal_counts_{}", "",
-              "counts of the terminal's voltage, with the bus's divider" + when);
-  plant.output(integer, "bus_counts", "", "counts of the bus voltage" + when);
+              "counts of the converter at the terminal, behind a divider like the divider of the bus" + when);
+  plant.output(integer, "bus_counts", "", "counts of the converter of the bus voltage" + when);
 }
 
 void add_encoder(const study::Scenario& s, PlantVariables& plant, std::vector<FmiVariable>& all) {
@@ -167,7 +175,7 @@ void add_encoder(const study::Scenario& s, PlantVariables& plant, std::vector<Fm
   plant.at(first_count + 7);
   plant.output(
       FmiKind::integer, "encoder_count", "",
-      "quarters of a line of an encoder on the motor's shaft, counted over turns, without missed edges");
+      "edges of the encoder on the motor's shaft (four per line), counted over turns, without missed edges");
   all.back().factor = 4 * s.sensors.encoder.lines / (2 * sixstep::base::pi);
 }
 

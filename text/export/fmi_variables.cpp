@@ -148,8 +148,10 @@ void add_clocks(std::vector<FmiVariable>& all) {
                    .continuous = false,
                    .description = description});
   };
-  add("use_tick_clock", first_use, FmiKind::boolean, FmiRole::parameter, "whether tick_clock ticks");
-  add("use_hall_clock", first_use + 1, FmiKind::boolean, FmiRole::parameter, "whether hall_clock ticks");
+  add("use_tick_clock", first_use, FmiKind::boolean, FmiRole::parameter,
+      "true: tick_clock ticks at each control tick; false: tick_clock never ticks");
+  add("use_hall_clock", first_use + 1, FmiKind::boolean, FmiRole::parameter,
+      "true: hall_clock ticks at each change of the Hall code; false: hall_clock never ticks");
   add("tick_clock", first_clock, FmiKind::clock, FmiRole::output, "ticks at each control tick");
   add("hall_clock", first_clock + 1, FmiKind::clock, FmiRole::output,
       "ticks at each change of the Hall code");

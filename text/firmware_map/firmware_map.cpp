@@ -31,10 +31,12 @@ void describe(base::Visitor& v, MapFile& w) {
   v.value("currents", w.currents, {.meaning = "the converter's inputs at the transducers of legs a, b, c"});
   v.value("potentiometer", w.potentiometer,
           {.meaning = "the converter's input at the potentiometer", .range = base::from(0)});
-  v.value("setpoint_range", w.setpoint_range,
-          {.meaning = "setpoint at the potentiometer's ends, in the mode's unit; 0 in its middle",
-           .range = base::above(0),
-           .required = true});
+  v.value(
+      "setpoint_range", w.setpoint_range,
+      {.meaning =
+           "setpoint at the potentiometer's upper end, in the mode's unit; at the lower end minus this value, in the middle 0",
+       .range = base::above(0),
+       .required = true});
 }
 
 /// Whether the text names a pin: P, a port from A to L except I, and a bit from 0 to 7.
@@ -60,7 +62,7 @@ void check_pins(const MapFile& w, Complaints& c) {
   if (std::any_of(w.hall.begin(), w.hall.end(),
                   [](const std::string& pin) { return pin.rfind("PK", 0) != 0; }))
     refuse(c, "hall", "must be pins of port K, the only port whose pin-change interrupt is simulated",
-           "choose three of PK0 to PK7");
+           "name three of the pins PK0 to PK7");
 }
 
 void check_inputs(const MapFile& w, Complaints& c) {
@@ -68,8 +70,8 @@ void check_inputs(const MapFile& w, Complaints& c) {
   inputs.insert(w.potentiometer);
   const auto is_input = [](double n) { return n >= 0 && n <= most_input && n == static_cast<int>(n); };
   if (w.currents.size() != 3 || inputs.size() != 4 || !std::all_of(inputs.begin(), inputs.end(), is_input))
-    refuse(c, "currents", "must be three inputs of the converter, and none of them the potentiometer's",
-           "choose four different inputs of 0 to 7");
+    refuse(c, "currents", "must be three inputs of the converter that differ from the potentiometer's input",
+           "name four different inputs, each 0 to 7");
 }
 
 }  // namespace

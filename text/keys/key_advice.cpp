@@ -135,7 +135,7 @@ base::Problem unknown_key(std::string_view key, std::span<const std::string> kno
       same = &candidate;
   if (same != nullptr)
     return {.limit = unit_suffix(key).empty() ? "lacks its unit" : "is not a key here",
-            .cure = fmt::format("write {} and give the value in that unit{}", *same,
+            .cure = fmt::format("write the key as {} and give the value in the key's unit{}", *same,
                                 conversion_text(unit_suffix(key), unit_suffix(*same)))};
   if (std::optional<std::string> meant = by_meaning(key, known))
     return {.limit = "is not a key here", .cure = std::move(*meant)};

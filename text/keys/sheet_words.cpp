@@ -88,19 +88,20 @@ constexpr SheetWords sheet_words[] = {
 constexpr SheetWords elsewhere[] = {
     {"gearratio gear gearreduction reductionratio sigearratio", "",
      "a gear belongs to the load: write load.gear in the scenario, motor turns per turn of the load"},
-    {"currentconstant ki", "", "leave it out: it is 1 over the torque constant"},
-    {"motorconstant", "", "leave it out: it follows from torque constant and resistance, K_t/sqrt R"},
+    {"currentconstant ki", "", "remove the line: the value is 1 divided by the torque constant"},
+    {"motorconstant", "", "remove the line: the value is K_t/sqrt R, from torque constant and resistance"},
     {"motorregulation", "", "write speed_torque_gradient_rpm_mNm: R/k^2 of 1e3/(Nm s) is 9.549 rpm/mNm"},
-    {"angularacceleration alphamax", "", "leave it out: it follows from stall torque and inertia"},
+    {"angularacceleration alphamax", "",
+     "remove the line: the value is the stall torque divided by the inertia"},
     {"peaktorque maxtorque maximumtorque", "",
-     "leave it out, or write stall_torque_mNm if it is the torque of the held rotor at nominal voltage"},
+     "remove the line, or write stall_torque_mNm if the value is the torque of the held rotor at nominal voltage"},
     {"peakcurrent maxcurrent maximumcurrent lcurrentmax currentlim currentlimit", "",
      "write control.limits.current_A in the scenario, because this limit belongs to the drive; for a design without a "
      "scenario give a torque limit, K_t times this current"},
     {"ratedpower nominalpower maxpower power outputpower", "",
-     "leave it out: it follows from nominal_torque_mNm and nominal_speed_rpm"},
+     "remove the line: the value is nominal_torque_mNm times nominal_speed_rpm"},
     {"weight motorweight mass shaftdiameter statordiameter length diameter phases numberofphases insulationclass",
-     "", "leave it out: the model does not use it"},
+     "", "remove the line: the model does not use this value"},
     {"focmotorldlqdiff", "", "write d_axis_inductance_mH = L - diff/2 and q_axis_inductance_mH = L + diff/2"},
 };
 

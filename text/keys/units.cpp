@@ -118,9 +118,9 @@ base::Problem not_known(const std::string& unit, const std::string& wanted) {
 }
 
 base::Problem no_plain_number(const std::string& unit, bool known) {
-  return {.limit = fmt::format("has the {} {}, and this key is a plain number",
+  return {.limit = fmt::format("has the {} {}, and this key takes a number without a unit",
                                known ? "unit" : "unknown unit", unit),
-          .cure = "write the number alone, or in %"};
+          .cure = "write the number without a unit, or with %"};
 }
 
 /// Whether the units are of one kind except for angles, and `from` contains minutes or hours.
@@ -134,11 +134,11 @@ base::Problem other_kind(const std::string& unit, const Unit& from, const Unit& 
   if (wanted.unit == "s" && plain_spelling(unit).ends_with("Hz"))
     return {.limit = fmt::format("has the unit {}, and this key is a time", unit),
             .cure = "write the period, 1 over the frequency: 20 kHz is 50 us. Units that fit: " + fit};
-  return {
-      .limit = fmt::format("has the unit {}, which cannot be converted to {}", unit, wanted.unit),
-      .cure = multiplies_minutes(from, to)
-                  ? "the unit multiplies by minutes; write per rpm as /rpm or /min-1. Units that fit: " + fit
-                  : "units that fit: " + fit};
+  return {.limit = fmt::format("has the unit {}, which cannot be converted to {}", unit, wanted.unit),
+          .cure = multiplies_minutes(from, to) ? "this unit contains minutes as a factor; write " per rpm
+                                                 " as /rpm or /min-1. Units that fit: " +
+                                                     fit
+                                               : "units that fit: " + fit};
 }
 
 base::Problem other_measure(const std::string& unit, std::string_view measure, const Wanted& wanted) {

@@ -58,8 +58,8 @@ class ForeignMotor {
       if (std::find(asked_.begin(), asked_.end(), answer.substr(0, answer.find('='))) == asked_.end())
         problems_.push_back(bounded({.where = "answer",
                                      .value = answer,
-                                     .limit = fmt::format("answers no question of {}", file_),
-                                     .cure = "leave it out"}));
+                                     .limit = fmt::format("names no question about {}", file_),
+                                     .cure = "leave this answer out"}));
     if (problems_.empty() && taken_ == 0)
       tell(0,
            fmt::format("contains no known value of a motor: the values of {} are {}", tool_.name,
@@ -128,7 +128,7 @@ class ForeignMotor {
       return {};
     }
     tell(word->line, fmt::format("{} = {} must be a number above 0", word->name, bounded(word->value, 100)),
-         "correct it in the file");
+         "correct this value in the file");
     return {};
   }
 
@@ -141,7 +141,7 @@ class ForeignMotor {
          fmt::format("{} = {} becomes {} = {}, which {}", word.name, bounded(word.value, 100), key,
                      base::six_digits(x),
                      whole ? base::limit_of(entry.about.range, range, x) : "must be a whole number"),
-         "check the number and its unit");
+         "correct the number in the file; the program that wrote the file determines its unit");
     return false;
   }
 
@@ -164,7 +164,7 @@ class ForeignMotor {
       if (!x || !in_range(*word, row.key, *x)) continue;
       const double pairs = row.key == "poles" ? *x / 2 : *x;
       if (pairs != std::floor(pairs)) {
-        tell(word->line, fmt::format("{} = {} is odd", word->name, ten_digits(*x)),
+        tell(word->line, fmt::format("{} = {} is an odd number of poles", word->name, ten_digits(*x)),
              "give the number of poles, which is even");
         continue;
       }
@@ -261,7 +261,7 @@ class ForeignMotor {
       return tell(difference->line,
                   fmt::format("{} = {} must be below twice {}", difference->name,
                               bounded(difference->value, 100), mean.name),
-                  "correct it in the file");
+                  "correct this value in the file");
     if (half == 0.0) return add_inductance("inductance_uH", mean, L, mean.name);
     add_inductance("d_axis_inductance_uH", mean, L - half,
                    fmt::format("{} - {}/2", mean.name, difference->name));
@@ -280,7 +280,7 @@ class ForeignMotor {
         fmt::format(
             "has {} ohm and {} H, which give a time constant L/R of {} s, and no motor has this time constant",
             base::six_digits(*resistance_ohm_), base::six_digits(*inductance_H_), base::three_digits(tau_s)),
-        "correct the unit of one value: the program uses ohms and henries");
+        "correct the wrong value in the file: resistance in ohm, inductance in H");
   }
 
   std::string known_words() const {

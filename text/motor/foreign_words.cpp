@@ -133,7 +133,7 @@ class JsonWalk {
   base::Problem damaged() {
     return {.where = {},
             .value = {},
-            .limit = "is no JSON from line " + std::to_string(lines_.at(at_)) + " on",
+            .limit = "has a JSON error in line " + std::to_string(lines_.at(at_)) + " on",
             .cure = "the file is cut off or damaged: save it again"};
   }
 

@@ -122,7 +122,7 @@ const std::vector<MotorStyle>& motor_styles() {
         {"inertia_kgm2",
          "Sellers rarely state the inertia. It is the mass of the turning parts times the square of their mean radius: 0.006 for 1.5 kg at 63 mm (a hoverboard's wheel), 0.03 for 2.5 kg at 110 mm, 0.05 to 0.2 with a spoked wheel. A vehicle's mass belongs to the load: m r^2."},
         {"no_load_current_mA",
-         "It gives the friction. Sellers rarely state it: measure it with a clamp meter."}}},
+         "The no-load current gives the friction. Sellers rarely state it: measure it with a clamp meter."}}},
       {"linear",
        "force per ampere, pole pitch, moving mass",
        "sine",

@@ -134,14 +134,14 @@ std::string friction_rows(const design::Friction& f, bool linear) {
   std::string text = model_row("B", fmt::format("{} {}", short_number(f.B_Nm_s), unit), f.from);
   if (f.coulomb_Nm > 0.0) text += model_row(dry, torque_text(f.coulomb_Nm, linear), "");
   if (f.iron.B_Nm_s > 0.0 || f.iron.coulomb_Nm > 0.0)
-    text += fmt::format("         of this, in the iron: B = {} {}, {} = {}\n", short_number(f.iron.B_Nm_s),
-                        unit, dry, torque_text(f.iron.coulomb_Nm, linear));
+    text += fmt::format("         share of the iron in these values: B = {} {}, {} = {}\n",
+                        short_number(f.iron.B_Nm_s), unit, dry, torque_text(f.iron.coulomb_Nm, linear));
   if (f.all_viscous_Nm_s) {
     text += fmt::format("         no-load point at {} {}: B = {} {} if all friction is viscous,\n",
                         short_number(f.no_load_speed_rad_s), linear ? "m/s" : "rad/s",
                         short_number(*f.all_viscous_Nm_s), unit);
-    text +=
-        fmt::format("         {} = {} if all friction is dry\n", dry, torque_text(*f.all_coulomb_Nm, linear));
+    text += fmt::format("         {} = {} if all friction is Coulomb friction\n", dry,
+                        torque_text(*f.all_coulomb_Nm, linear));
   }
   if (f.split_viscous_Nm_s)
     text +=
@@ -203,7 +203,7 @@ std::string coarse_lines(const SheetCheck& check) {
   for (const design::LineUse& line : check.lines)
     if (line.doubt > wide && line.in_file == std::floor(line.in_file) &&
         line.key.find("voltage") == std::string::npos)
-      text += trimmed(fmt::format("  {} = {} is taken as {} +- {:.2g} %", line.key, shortest(line.in_file),
+      text += trimmed(fmt::format("  {} = {} is read as {} +- {:.2g} %", line.key, shortest(line.in_file),
                                   shortest(line.in_file), 100.0 * line.doubt));
   return text;
 }
@@ -221,7 +221,7 @@ std::string verdict_line(const SheetCheck& check) {
                                  : doubted > 0     ? "not contradictory"
                                                    : "consistent",
                                  holds, check.relations.size());
-  if (known > 0) text += fmt::format(", {} broken, as the file states", known);
+  if (known > 0) text += fmt::format(", {} broken as known_deviation states", known);
   if (doubted > 0) text += fmt::format(", {} in doubt", doubted);
   if (broken > 0) text += fmt::format(", {} broken", broken);
   return text;
@@ -278,10 +278,11 @@ std::string check_report(const design::Sheet& sheet, const SheetCheck& check) {
   std::string unused;
   for (const design::LineUse& line : check.lines)
     if (!line.used) unused += trimmed(fmt::format("  {}: {}", line.key, line.why));
-  if (!unused.empty()) text += "\nLines that the model does not use\n" + unused;
+  if (!unused.empty()) text += "\nLines of the sheet that the model does not use\n" + unused;
   if (const std::string coarse = coarse_lines(check); !coarse.empty())
     text +=
-        "\nIntegers of one digit: write the sheet's zeros, as in 4.00, to narrow the tolerance\n" + coarse;
+        "\nValues with one digit: write also the zeros that the sheet prints, as in 4.00, to narrow the tolerance\n" +
+        coarse;
   std::string doubts;
   for (const base::Problem& doubt : check.doubts) doubts += "; in doubt: " + base::to_string(doubt);
   return text + "\n" + trimmed(verdict_line(check) + not_simulatable(sheet, check) + doubts);

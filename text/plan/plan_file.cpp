@@ -50,8 +50,8 @@ analysis::Axis axis_from(const analysis::AxisEntry& entry, const std::string& wh
   const bool range = entry.from || entry.to;
   if (range && !entry.values.empty())
     complaints.later({.where = where + ".values",
-                      .limit = "contradicts from and to: give the values only once",
-                      .cure = "keep values, or from and to"});
+                      .limit = "contradicts from and to, which also give the values",
+                      .cure = "remove values, or remove from, to and points"});
   if (!range && entry.values.empty())
     complaints.later(
         {.where = where, .limit = "has no values", .cure = "give values = [..], or from, to and points"});
@@ -207,7 +207,7 @@ base::Result<analysis::Axis> axis_of(std::string_view text) {
   const std::vector<std::string> parts = split(values, ':');
   if (parts.size() > 4)
     return base::Problem{std::string(text), "", "has more than FROM:TO:POINTS:SPACING",
-                         "remove the other parts"};
+                         "remove everything behind SPACING"};
   if (parts.size() > 1) return range_of(key, parts, text);
   analysis::Axis axis{.key = key, .values = split(values, ',')};
   in_keys_unit(axis);

@@ -15,11 +15,11 @@ bool is_any_of(const RecordedColumn& column, const ThreeNames& names) {
 /// The reason why a voltage with a known heading was not used.
 std::string why_not_voltage(Meaning meaning, const BenchUse& use) {
   const bool line = meaning == Meaning::between_terminals;
-  if (use.voltages_are_asked) return "other voltages are requested";
+  if (use.voltages_are_asked) return "the options request other voltages";
   if (use.voltages == Meaning::unknown)
     return line ? "a line-to-line voltage; u_ab and u_bc are both needed"
                 : "a voltage of a terminal; u_a, u_b and u_c are all needed";
-  if (use.voltages == meaning) return "more than are needed";
+  if (use.voltages == meaning) return "three voltages are already used";
   return line ? "a line-to-line voltage; the voltages of terminals are used"
               : "a voltage of a terminal; the line-to-line voltages are used";
 }
@@ -108,10 +108,11 @@ std::string why_not_used(const RecordedColumn& column, const BenchUse& use) {
     case Meaning::of_terminal:
       return why_not_voltage(meaning, use);
     case Meaning::hall_line:
-      if (!use.hall_log) return "a Hall line, no voltage";
-      return use.by_codes ? "a Hall line; the codes are used" : "more Hall lines than three";
+      if (!use.hall_log) return "a Hall line, not a voltage";
+      return use.by_codes ? "a Hall line; the column of Hall codes is used instead"
+                          : "a Hall line; three Hall lines are already used";
     case Meaning::hall_code:
-      return use.hall_log ? "Hall codes; the three lines are used" : "Hall codes, no voltage";
+      return use.hall_log ? "Hall codes; the three Hall lines are used instead" : "Hall codes, not a voltage";
     case Meaning::unknown:
       break;
   }

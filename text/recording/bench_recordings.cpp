@@ -182,7 +182,7 @@ base::Result<Columns> hall_columns(const Recording& r, const BenchColumns& wante
   for (const RecordedColumn& column : r.columns)
     if (bare_name(column.heading) == "logic") logic.push_back({&column, ""});
   if (logic.size() != 3) return Columns{};
-  notes.push_back(fmt::format("{}, {} and {} are taken for H1, H2 and H3, in the order of their columns",
+  notes.push_back(fmt::format("the columns {}, {} and {} are read as H1, H2 and H3 in this order",
                               logic[0].column->name, logic[1].column->name, logic[2].column->name));
   return logic;
 }
@@ -194,7 +194,7 @@ base::Result<Codes> hall_codes(const Recording& r, const Columns& columns) {
                                       : "does not have three columns of Hall lines: it has ";
   return of_recording(
       r, lacks + headings_of(r),
-      "write the headings hall1, hall2, hall3, or hall for a column of codes, or name the columns");
+      "write the headings hall1, hall2 and hall3, or hall above a column of codes, or name the columns with --hall");
 }
 
 /// The points between which a log's voltages were measured: as requested, else according to the headings. The
@@ -219,9 +219,8 @@ base::Problems take_voltages(const Recording& r, const Voltages& voltages, const
     return {of_recording(r,
                          fmt::format("has {} {} of {}", count, count == 1 ? "voltage" : "voltages",
                                      lines ? "lines" : "terminals"),
-                         lines
-                             ? "give u_ab and u_bc, or remove the voltages to use the Hall codes alone"
-                             : "give u_a, u_b and u_c, or remove the voltages to use the Hall codes alone")};
+                         lines ? "give u_ab and u_bc, or remove the voltages to use only the Hall codes"
+                               : "give u_a, u_b and u_c, or remove the voltages to use only the Hall codes")};
   out.voltages = lines ? analysis::RecordedVoltages::lines : analysis::RecordedVoltages::terminals;
   for (std::size_t n = 0; n < count; ++n) {
     base::Result<std::vector<double>> values = values_of(r, voltages.columns[n], "V");
@@ -270,7 +269,7 @@ base::Result<analysis::EmfRecord> emf_record_of(const Recording& r, const BenchC
               notes);
   if (voltages->columns.empty())
     return of_recording(r, "has no column of voltages: it has " + headings_of(r),
-                        "name the columns of the voltages");
+                        "name the columns of the voltages with --voltages");
   if (!voltages->between)
     return base::Problem{
         .where = "between",

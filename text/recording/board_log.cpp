@@ -169,7 +169,7 @@ class LogReader {
         return {{.where = "columns",
                  .value = bounded(formula->name, 200),
                  .limit = "is named twice",
-                 .cure = "name each column of the simulation once"}};
+                 .cure = "assign each column of the simulation only once"}};
       named_.emplace_back(*column, *formula);
     }
     return {};
@@ -221,8 +221,9 @@ class LogReader {
       const auto& columns = out_.trace.columns;
       if (std::any_of(columns.begin(), columns.end(),
                       [&](const study::Column& c) { return c.name == found.column->name; }))
-        problems_.push_back(of_recording(r_, fmt::format("has two columns of {}", found.column->name),
-                                         "rename one of the two, or name the intended column"));
+        problems_.push_back(
+            of_recording(r_, fmt::format("has two columns of {}", found.column->name),
+                         "rename one of the two columns, or name the intended column with --columns"));
       else
         add(*found.column, values_of(r_, found.picked, wanted(*found.column)), times.left_out);
     }

@@ -41,8 +41,8 @@ Marked marked(const RecordedColumn& column) {
 
 std::string remark_words(const Remark& remark) {
   if (remark.times == 1) return fmt::format("line {} says \"{}\"", remark.line, remark.text);
-  return fmt::format("line {} says \"{}\", and {} more {}", remark.line, remark.text, remark.times - 1,
-                     remark.times == 2 ? "does" : "do");
+  return fmt::format("line {} says \"{}\", and {} more {} the same", remark.line, remark.text,
+                     remark.times - 1, remark.times == 2 ? "line says" : "lines say");
 }
 
 }  // namespace
@@ -61,10 +61,10 @@ Notes what_the_board_says(const Recording& recording) {
     if (found.rows == 0) continue;
     if (counts_missed(column))
       out.push_back(
-          fmt::format("{} that the board missed control periods, up to {:g}: its values there are late",
+          fmt::format("{} that the board missed up to {:g} control periods: the values in such rows are late",
                       rows_say(found.rows), found.most));
     else
-      out.push_back(fmt::format("{} that the board had a fault, {} {:g} first in line {}",
+      out.push_back(fmt::format("{} that the board had a fault, at first {} {:g} in line {}",
                                 rows_say(found.rows), column.name, column.values[found.first],
                                 recording.line_of(found.first)));
   }

@@ -28,7 +28,7 @@ std::string places_of(const Recording& r, const std::vector<const RecordedColumn
 base::Problem several(const Recording& r, std::string_view heading,
                       const std::vector<const RecordedColumn*>& columns) {
   return of_recording(r, fmt::format("has {} columns \"{}\"", columns.size(), heading),
-                      "name one column by its place: " + places_of(r, columns));
+                      "name one column by its number: " + places_of(r, columns));
 }
 
 std::vector<const RecordedColumn*> columns_like(const Recording& r, const std::string& heading) {
@@ -116,7 +116,7 @@ base::Result<std::vector<Picked>> columns_called(const Recording& recording,
     const auto before = static_cast<std::size_t>(
         std::count(headings.begin(), headings.begin() + static_cast<std::ptrdiff_t>(n), heading));
     if (found.size() == 1 && before > 0)
-      return of_recording(recording, fmt::format("has column \"{}\" requested twice", heading),
+      return of_recording(recording, fmt::format("is asked twice for the column \"{}\"", heading),
                           "name each column once; it has " + headings_of(recording));
     if (found.size() > 1 && asked != found.size()) return several(recording, heading, found);
     const RecordedColumn* const column = found[before];
@@ -161,7 +161,7 @@ base::Result<std::vector<double>> values_of(const Recording& recording, const Pi
       return of_recording(
           recording,
           fmt::format("{} {:g} in row {} is too large for any instrument", column.name, (*out)[n], n + 1),
-          "check the unit of this column");
+          "correct the unit in this column's heading");
   return out;
 }
 

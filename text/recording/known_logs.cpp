@@ -33,12 +33,14 @@ struct KnownKind {
   std::size_t without_head = 0;  ///< number of columns of a log without headings
 };
 
-constexpr std::string_view mean_of_pulses = "a mean over PWM periods, where the simulation has the pulses";
-constexpr std::string_view of_axes = "of the rotor's axes, and the simulated drive commutates in blocks";
+constexpr std::string_view mean_of_pulses =
+    "a mean over PWM periods; the simulation has the current of each pulse";
+constexpr std::string_view of_axes =
+    "a value of the rotor's d or q axis; the simulated drive is a six-step drive";
 constexpr std::string_view of_blocks =
-    "of blocks, and the simulated drive is field-oriented: i_q is compared";
+    "the current of a six-step drive; the simulated drive is field-oriented, so i_q is compared";
 constexpr std::string_view of_modulation =
-    "relative to the largest modulation, and the simulated drive is field-oriented";
+    "the duty relative to the largest modulation; the simulated drive is field-oriented";
 
 constexpr KnownColumn vesc_columns[] = {
     {"ms_today", "time=ms_today/1000"},
@@ -63,7 +65,7 @@ constexpr KnownColumn blackbox_columns[] = {
     {"time", "time=time"},
     {"eRPM[#]", "speed=eRPM[#]*100*2*pi/60/@"},
     {"vbatLatest", "bus_V=vbatLatest"},
-    {"amperageLatest", "", DrivesWith::any, "of all motors together"},
+    {"amperageLatest", "", DrivesWith::any, "the current of all motors together"},
 };
 constexpr KnownColumn odrive_columns[] = {
     {"vel_estimate", "speed=vel_estimate*2*pi"},
@@ -72,7 +74,8 @@ constexpr KnownColumn odrive_columns[] = {
     {"Iq_measured", "i_q=Iq_measured", DrivesWith::field, of_axes},
     {"ibus", "", DrivesWith::any, mean_of_pulses},
 };
-constexpr std::string_view output_position = "counted from the drive's own zero";
+constexpr std::string_view output_position =
+    "a position from the drive's own zero, which the simulation does not have";
 constexpr KnownColumn moteus_registers[] = {
     {"time", "time=time"},
     {"VELOCITY", "speed=VELOCITY*2*pi"},
@@ -160,8 +163,8 @@ base::Problem which_esc(const std::string& limit, const std::set<int>& known) {
 base::Problem one_drive_only(const Recording& r) {
   return bounded({.where = "esc",
                   .value = {},
-                  .limit = fmt::format("has no meaning: {} is no log of several ESCs", r.name),
-                  .cure = "leave it out"});
+                  .limit = fmt::format("has no effect, because {} is not a log of several ESCs", r.name),
+                  .cure = "leave --esc out"});
 }
 
 /// The number of the motor whose eRPM counts.
@@ -189,7 +192,7 @@ void take_columns(const KnownKind& kind, const Recording& r, const LogColumns& w
     if (kind.without_head == 0 && !has(r, heading)) continue;
     const bool by_pairs = column.formula.find('@') != std::string_view::npos;
     if (by_pairs && !wanted.pole_pairs)
-      out.not_used.push_back({heading, "electrical, and the motor has no pole pairs"});
+      out.not_used.push_back({heading, "an electrical speed, and a linear motor has no pole pairs"});
     else if (column.formula.empty() || (column.drives != DrivesWith::any && column.drives != drive))
       out.not_used.push_back({heading, std::string(column.why)});
     else
@@ -217,8 +220,9 @@ base::Result<std::optional<KnownLog>> known_log(const Recording& r, std::string_
     motor = fmt::format("{}", *chosen);
   }
   if (kind->without_head > 0 && !wanted.interval_s)
-    return of_recording(r, fmt::format("is {}, which has no time", out.name),
-                        "give the interval of its rows: monitor_downsample times the time of a loop");
+    return of_recording(
+        r, fmt::format("is {}, which has no time", out.name),
+        "give the interval of the rows: monitor_downsample times the duration of one loop of the sketch");
   take_columns(*kind, r, wanted, motor, out);
   return std::optional(std::move(out));
 }

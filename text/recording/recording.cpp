@@ -68,14 +68,14 @@ WholeRows from_last_start(std::string_view text) {
   // The last row of a cut log is removed, unless it is the only row.
   if (cut && begins_with_number(text.substr(text.rfind('\n', end - 1) + 1))) {
     text = text.substr(0, end + 1);
-    out.notes.push_back(
-        fmt::format("line {} has no end: it may be incomplete and is not used", lines_in(text) + 1));
+    out.notes.push_back(fmt::format(
+        "the last line, {}, has no line break: it may be incomplete and is not used", lines_in(text) + 1));
   }
   const std::size_t from = last_start(text);
   out.lines_before = lines_in(text.substr(0, from));
   if (from > 0)
     out.notes.push_back(
-        fmt::format("begins again in line {}: the lines above are not used", out.lines_before + 1));
+        fmt::format("begins again in line {}: only the rows from there on are used", out.lines_before + 1));
   out.text = text.substr(from);
   return out;
 }

@@ -97,10 +97,11 @@ base::Result<Times> without_column(const Recording& r, std::optional<double> int
   if (interval_s && r.clock && !are_near(*interval_s, r.clock->interval_s))
     return of_recording(
         r, fmt::format("says \"{}\", but the given interval is {:.6g} s", r.clock->said, *interval_s),
-        "do not give the interval, or give the file's interval");
+        "leave the interval out, or give the interval that the file states");
   if (!interval_s)
-    notes.push_back(fmt::format("has no column of time; the rows are {:.6g} s apart by \"{}\"",
-                                r.clock->interval_s, r.clock->said));
+    notes.push_back(
+        fmt::format("has no column of time; the rows are {:.6g} s apart, as the file says: \"{}\"",
+                    r.clock->interval_s, r.clock->said));
   const double start_s = interval_s ? 0.0 : r.clock->start_s;
   return Times{.t_s = rows_from(start_s, interval_s.value_or(r.clock ? r.clock->interval_s : 0.0), r.rows()),
                .left_out = {},
@@ -149,8 +150,9 @@ base::Result<std::vector<double>> by_clock(const Recording& r, const RecordedCol
   const double interval_s = r.clock->interval_s;
   const bool bare = column.unit.empty();
   if (bare && are_numbers_of_rows(t)) {
-    notes.push_back(fmt::format("{} numbers the rows, which are {:.6g} s apart by \"{}\"", column.name,
-                                interval_s, r.clock->said));
+    notes.push_back(
+        fmt::format("{} contains row numbers; the rows are {:.6g} s apart, as the file says: \"{}\"",
+                    column.name, interval_s, r.clock->said));
     for (std::size_t n = 0; n < t.size(); ++n) t[n] = r.clock->start_s + static_cast<double>(n) * interval_s;
     return t;
   }
@@ -158,7 +160,8 @@ base::Result<std::vector<double>> by_clock(const Recording& r, const RecordedCol
   if (steps.middle == 0.0) return t;
   if (bare)
     if (const TimeUnit* const unit = unit_by_clock(t, steps, interval_s); unit && unit->per_s != 1.0) {
-      notes.push_back(fmt::format("{} is in {} by \"{}\"", column.name, unit->name, r.clock->said));
+      notes.push_back(fmt::format("{} is read in {}, because the file says \"{}\"", column.name, unit->name,
+                                  r.clock->said));
       for (double& x : t) x /= unit->per_s;
       return t;
     }
@@ -220,7 +223,7 @@ base::Result<Times> times_at_interval(const Recording& recording, std::vector<do
         recording,
         fmt::format("contradicts the given interval of {:.6g} s: {} rises by {:.6g} s from row to row",
                     interval_s, column.name, steps_of(t).middle),
-        "do not give the interval, or write the right unit in the heading, for example time [us]");
+        "leave the interval out, or write the right unit in the heading, for example time [us]");
   // The interval is needed only for times with too few digits.
   if (steps_of(t).even() && std::adjacent_find(t.begin(), t.end()) == t.end())
     return rising_times(recording, std::move(t), column, notes);
@@ -238,7 +241,7 @@ base::Result<Times> times_of(const Recording& recording, std::optional<double> i
   if (!values) return values.problems();
   if (column->unit.empty() && !recording.clock && are_numbers_of_rows(*values))
     return of_recording(recording,
-                        fmt::format("has no time: its column {} only numbers the rows", column->name),
+                        fmt::format("has no time: its column {} contains only row numbers", column->name),
                         "write the heading time [s] if these are seconds, or give the interval of the rows");
   base::Result<std::vector<double>> t_s = by_clock(recording, *column, std::move(*values), notes);
   if (!t_s) return t_s.problems();

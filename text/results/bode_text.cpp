@@ -62,7 +62,7 @@ std::string why_beside(const BodeStudy& s) {
       end.sensors.rotor == study::RotorSensing::hall && end.control.drive != study::FirmwareKind::sensorless;
   if (hall && s.mode == sixstep::control::Mode::position)
     return fmt::format(
-        "Hall probes resolve the position only in steps of {}, and near standstill their edges hardly show a speed. Set sensors.rotor = \"ideal\" to see the loop without probes, or use an encoder with pwm.commutation = \"sample\"",
+        "Hall probes resolve the position only in steps of {}, and near standstill their edges are too rare to measure a speed. Set sensors.rotor = \"ideal\" to see the loop without probes, or use an encoder with pwm.commutation = \"sample\"",
         quantity_text(60 / s.pole_pairs, "deg", 3));
   const bool one_way = end.pwm.chopping != sixstep::control::Chopping::complementary &&
                        !end.control.smooth_chopping.on && end.control.drive != study::FirmwareKind::field;
@@ -135,7 +135,8 @@ std::string bode_place(const BodeStudy& s) {
 
 std::vector<std::string> bode_notes(const BodeStudy& s) {
   std::vector<std::string> notes;
-  if (!s.not_linear.empty()) notes.push_back("no linear loop to compare with: " + s.not_linear);
+  if (!s.not_linear.empty())
+    notes.push_back("no linear loop can be compared with the measurement: " + s.not_linear);
   const auto few = std::count_if(s.points.begin(), s.points.end(),
                                  [](const LoopPoint& p) { return p.coherence < analysis::little_coherence; });
   const bool sensorless = s.at_end.control.drive == study::FirmwareKind::sensorless;
@@ -154,8 +155,9 @@ std::vector<std::string> bode_notes(const BodeStudy& s) {
         sensorless ? "" : "; set sensors.rotor = \"ideal\" to see the loop without this delay"));
   if (std::string told = beside_the_designed(s); !told.empty()) notes.push_back(std::move(told));
   if (std::isfinite(s.beside))
-    notes.push_back(fmt::format("{:.2g} % of the response's rms is at frequencies that were not excited",
-                                100 * s.beside));
+    notes.push_back(
+        fmt::format("{:.2g} % of the response's rms is at frequencies that the multisine does not contain",
+                    100 * s.beside));
   return notes;
 }
 

@@ -86,7 +86,7 @@ std::string lines(const CommissionStudy& s) {
              probes, inverted == "none" ? "" : ", inverted: " + inverted,
              s.found.hall_lag_deg < 0 ? "leads" : "lags", std::fabs(s.found.hall_lag_deg)) +
          rows.text() +
-         "A drive uses this table by as_wired() of hall_survey.hpp, without moving a wire. To move wires instead, see `sixstep motor wiring`.\n" +
+         "A drive that reads this table with as_wired() of hall_survey.hpp needs no change of the wires. To move wires instead, see `sixstep motor wiring`.\n" +
          crossed_phases(s.subject.wires);
 }
 
@@ -116,11 +116,11 @@ const char* fault_words(CommissioningFault fault) {
     case CommissioningFault::offset:
       return "the offset of a current amplifier is too large: check the amplifier";
     case CommissioningFault::current:
-      return "the longest vector does not reach the test current: check the wires, raise the bus voltage, or lower the test current";
+      return "the longest voltage vector does not reach the test current: check the wires, raise --voltage, or lower --current";
     case CommissioningFault::winding:
-      return "the two current levels differ too little to compute a resistance: raise the test current";
+      return "the two current levels differ too little to compute a resistance: raise --current";
     case CommissioningFault::not_turned:
-      return "the rotor did not follow even a slow field: free the shaft, or raise the test current";
+      return "the rotor did not follow a slow field: free the shaft, or raise --current";
     case CommissioningFault::none:
       break;
   }
@@ -131,11 +131,11 @@ std::string survey_words(const CommissionStudy& s) {
   switch (s.state.probes.verdict) {
     case HallSurvey::dead_line:
       return "Hall line at H" + inverted_word(s.state.probes.dead_pins) +
-             " never changed: check the probe, its supply and the pull-up of this line";
+             " never changed: check this line's probe, the probe's supply and the line's pull-up";
     case HallSurvey::other_codes:
-      return "Hall lines do not show six codes in one order: check for a shorted line, and the kind of the probes";
+      return "Hall lines do not show six codes in one order: look for a shorted line, and check that each probe switches at every magnet pole";
     case HallSurvey::not_steady:
-      return "Hall edges were missed or do not repeat: the rotor does not follow the slow field steadily, because of cogging, dead time or diodes. Raise the test current";
+      return "Hall edges were missed or do not repeat: the rotor does not follow the slow field steadily, because of cogging, dead time or diodes. Raise --current";
     case HallSurvey::good:
       break;
   }
@@ -176,7 +176,7 @@ std::string commission_failure(const CommissionStudy& s) {
     out = fault_words(s.state.fault);
   else if (!s.done())
     out = fmt::format(
-        "the chip was still {} after {}, because the rotor follows too slowly: raise the test current",
+        "the chip was still {} after {}, because the rotor follows the field too slowly: raise --current",
         phase_word(s.state.phase), quantity_text(s.seconds, "s", 3));
   if (s.lines_found() || s.state.phase < CommissioningPhase::turning ||
       s.state.fault == CommissioningFault::offset || s.state.fault == CommissioningFault::current ||

@@ -87,9 +87,10 @@ std::vector<std::string> chip_faults(const study::ChipReport& chip) {
 std::vector<std::string> core_texts(const study::Outcome& outcome) {
   if (outcome.chip) return chip_texts(*outcome.chip);
   if (!outcome.core) return {};
-  return {fmt::format("on the {}: {}{}", outcome.core->core,
-                      outcome.core->calls == 1 ? "1 call" : fmt::format("{} calls", outcome.core->calls),
-                      outcome.fault ? "" : ", each with the same answer as on the host, in every bit")};
+  return {
+      fmt::format("on the {}: {}{}", outcome.core->core,
+                  outcome.core->calls == 1 ? "1 call" : fmt::format("{} calls", outcome.core->calls),
+                  outcome.fault ? "" : "; in each call, every bit of the answer equals the host's answer")};
 }
 
 }  // namespace text

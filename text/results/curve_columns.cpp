@@ -53,7 +53,7 @@ const std::array<CurveColumn, 25> columns = {{
     {{"shaft_W", "W", "shaft", "power delivered by the shaft"}, of_point<&P::shaft_W>},
     {{"efficiency", "1", "", "shaft power divided by supply power; in generator operation the inverse"},
      [](const CurveRow& row) { return number(row.point.efficiency); }},
-    {{"energy_residual", "1", "", "residual of the energy balance, relative to the exchanged energy"},
+    {{"energy_residual", "1", "", "residual of the energy balance, divided by the exchanged energy"},
      of_point<&P::energy_residual>},
     {{"current_bound_A", "A", "phase", "error bound of the steady state's currents"},
      [](const CurveRow& row) {

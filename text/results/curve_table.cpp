@@ -180,7 +180,7 @@ std::string locked(const analysis::OperatingPoint& turning, const Units& u) {
 
 std::string left_out(const analysis::Bench& b) {
   const std::string& words = b.motor.left_to_a_run;
-  return words.empty() ? "" : fmt::format("This curve neglects what a run simulates: {}.\n", words);
+  return words.empty() ? "" : fmt::format("This curve neglects effects that a run simulates: {}.\n", words);
 }
 
 std::string no_load(const analysis::NoLoad& n, const Units& u) {
@@ -216,7 +216,8 @@ std::string drop(const analysis::CurveRequest& r, const analysis::Curve& curve, 
   const auto per_torque = [&](double x) { return significant(x * u.speed.factor / u.torque.factor, 3); };
   std::string text = fmt::format("From no load to the nominal torque the curve falls by {} {}/{}",
                                  per_torque(*d.curve), u.speed.name, u.torque.name);
-  if (d.sheet) text += fmt::format(", between the two printed points by {}", per_torque(*d.sheet));
+  if (d.sheet)
+    text += fmt::format(", and between the sheet's no-load and nominal points by {}", per_torque(*d.sheet));
   text += fmt::format("; R/K_t^2 is {}", per_torque(d.ideal));
   if (d.printed) text += fmt::format(" (printed as gradient: {})", per_torque(*d.printed));
   return text + ", which neglects the commutation time.\n";
@@ -235,10 +236,11 @@ std::string nominal(const analysis::CurveRequest& r, const analysis::Curve& curv
   const double sheet_V = r.bench.motor.nominal_voltage_V;
   if (r.bench.duty != 1 || r.bench.voltage_V != sheet_V)
     return text + fmt::format(", at full duty and {:g} V.\n", sheet_V);
-  if (!n.torque_Nm) return text + "; without a torque this point cannot be compared with the curve.\n";
-  if (!n.at_torque) return text + "; the curve does not reach that torque.\n";
+  if (!n.torque_Nm)
+    return text + "; the sheet gives no nominal torque, so the curve cannot be compared with this point.\n";
+  if (!n.at_torque) return text + "; the curve does not reach the nominal torque.\n";
   const analysis::OperatingPoint& p = *n.at_torque;
-  text += fmt::format("; at that torque the curve has {}", speed_text(p.speed_rad_s, u));
+  text += fmt::format("; at this torque the curve has {}", speed_text(p.speed_rad_s, u));
   if (n.speed_rad_s) text += fmt::format(" ({})", against(p.speed_rad_s, *n.speed_rad_s));
   text += fmt::format(" and {} A", significant(p.winding_current_A, 4));
   if (n.current_A) text += fmt::format(" ({})", against(p.winding_current_A, *n.current_A));
@@ -290,7 +292,7 @@ std::string thermal(const analysis::CurveRequest& r, const analysis::Curve& curv
   if (!curve.by_values) return stands(when, *curve.thermal, r, u) + lasting(curve, u);
   when += fmt::format(" and the worse ends of the motor file's ranges ({})", curve.worse_ends);
   return stands(when, *curve.thermal, r, u) + lasting(curve, u) +
-         "All these limits, and the columns cont. and held, are for the worse ends.\n" +
+         "All these limits, and the columns cont. and held, use the worse ends of the ranges.\n" +
          stands("With the motor file's values themselves", *curve.by_values, r, u);
 }
 

@@ -163,7 +163,7 @@ std::string sensorless_text(const std::vector<sixstep::design::DerivationStep>& 
   for (const DerivationStep& step : steps)
     rows.add({step.symbol, quantity_text(step.value, step.unit, 6), step.formula});
   return "\nWithout a rotor sensor: threshold, lowest speed, start, highest speed\n" + rows.text() +
-         "  these runs use Hall edges in place of zero crossings; run the scenario itself to simulate the start\n";
+         "  the runs of this design use Hall edges in place of zero crossings; run the scenario to simulate the start\n";
 }
 
 /// A sentence on a nominal speed above the speed that commutation allows.

@@ -143,7 +143,7 @@ double settled_percent(const analysis::DesignStudy& s) {
 /// Why the speed's band is wider than the usual 2 %.
 std::string band_reason(const analysis::DesignStudy& s) {
   const bool wide = s.design.spec.mode == Mode::speed && sixstep::design::settling_band(s.design) > 0.02;
-  return wide ? "; 10 %, because a speed from Hall edges is coarse" : "";
+  return wide ? "; within 10 %, because the resolution of a speed from Hall edges is coarse" : "";
 }
 
 /// "with little phase margin (30.5 deg, 24 deg at worst), ": the least phase margin of all loops, if it is
@@ -204,7 +204,7 @@ std::string design_verdict(const analysis::DesignStudy& s) {
       if (w.grave) return text + ": " + w.what;
   const auto *settling = find(s, "settling time"), *overshoot = find(s, "overshoot");
   if (settling && (!std::isfinite(settling->measured) || sixstep::analysis::drowned(s))) {
-    text += fmt::format(": the {} loop's settling cannot be measured", mode);
+    text += fmt::format(": the settling time of the {} loop cannot be measured", mode);
   } else if (settling) {
     text += fmt::format(": the {} loop settles within {:g} % in {}", mode, settled_percent(s),
                         quantity_text(settling->measured, "s", 4));
@@ -254,7 +254,7 @@ std::vector<std::string> design_lines(const analysis::DesignStudy& s, bool of_a_
   }
   if (!of_a_board && s.scenario.bridge.dead_time_s == analysis::usual_dead_time_s)
     lines.push_back(
-        "bridge.dead_time_s: simulated with the usual value of small bridges; write the value of your gate drivers");
+        "bridge.dead_time_s: the design used 0.5 us, the usual value of small bridges; write the value of your gate drivers");
   return lines;
 }
 

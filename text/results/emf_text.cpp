@@ -89,7 +89,7 @@ std::string constants_section(const EmfResult& r) {
   }
   std::string out = rows.text();
   if (r.pole_pairs == 0)
-    out += "  per electrical rad/s; give the pole pairs or the shaft's speed for constants per turn\n";
+    out += "  per electrical rad/s; give --pole-pairs or --speed for constants per turn of the shaft\n";
   if (!star)
     out += "  values of a phase, without harmonics of order 3, 9, 15, which cancel between two terminals\n";
   return out;
@@ -110,8 +110,8 @@ std::string harmonics_section(const EmfResult& r) {
     rows.add({std::to_string(h.order), measured_text(part), bounds_text(part),
               fmt::format("{:.2g}", to_percent * h.floor),
               !h.stands_out ? ""
-              : common      ? "not from the motor, because it cancels between two terminals"
-                            : fmt::format("{:+.2g} %", to_percent * h.in_phase)});
+              : common ? "not from the motor, because harmonics of this order cancel between two terminals"
+                       : fmt::format("{:+.2g} %", to_percent * h.in_phase)});
   }
   std::string out = rows.text();
   if (hidden > 0) out += fmt::format("  {} more do not exceed the noise\n", hidden);
@@ -133,7 +133,9 @@ std::string check_words(const analysis::FrameCheck& c, double tolerance) {
   if (printed && printed->fits)
     return "fits" +
            (fitting == printed->frame ? std::string() : "; within the tolerance these fit, too: " + fitting);
-  if (fitting.empty()) return fmt::format("CONTRADICTS: fits no frame within {:g} %", to_percent * tolerance);
+  if (fitting.empty())
+    return fmt::format("CONTRADICTS: the recording fits the value in no frame within {:g} %",
+                       to_percent * tolerance);
   if (!printed) return "names no frame; fits " + fitting;
   return "CONTRADICTS: the value fits " + fitting;
 }

@@ -75,7 +75,7 @@ std::string sensor_lines(const analysis::HallIdentity& found) {
   // turned in the opposite direction would fit the log as well.
   if (!place)
     return out +
-           "# without hall_edges_deg: codes alone show neither the first edge nor the rotor's direction; also record u_ab and u_bc\n";
+           "# without hall_edges_deg: Hall codes show neither the first edge nor the rotor's direction; also record u_ab and u_bc\n";
   out += "hall_edges_deg = [";
   double width = 0.0;
   for (std::size_t n = 0; n < found.edges.size(); ++n) {

@@ -44,7 +44,7 @@ std::string heading(const std::string& name, const HallIdentity& f) {
     out += fmt::format("  {} of the voltages not used, more than five standard deviations from the fit\n",
                        count(f.voltages_left_out, "reading", "readings"));
   if (f.place && f.place->at_turns > 0)
-    out += fmt::format("  {} not used, because the rotor turned back after {}\n",
+    out += fmt::format("  {} not used, because the rotor reversed after {}\n",
                        count(f.place->at_turns, "edge", "edges"), f.place->at_turns == 1 ? "it" : "them");
   if (f.unused > 0)
     out += fmt::format("  {} after the first {} not used\n", count(f.unused, "edge", "edges"), edges);
@@ -98,7 +98,7 @@ std::string wires_section(const HallIdentity& f) {
   rows.add({"Wires", "", "sure"});
   rows.add({"never seen", never_seen(f) + ": " + spacing_words(f), certainty_text(f.mask_probability)});
   if (!f.place) {
-    rows.add({"order", "not known from codes alone: also record u_ab and u_bc", ""});
+    rows.add({"order", "not known from Hall codes: also record u_ab and u_bc", ""});
     return rows.text();
   }
   const IdentifiedPlace& p = *f.place;
@@ -126,7 +126,7 @@ std::string numbers_section(const HallIdentity& f) {
     if (p.hysteresis_deg)
       add(rows, "hysteresis", *p.hysteresis_deg, 1.0, "deg");
     else if (p.both_ways)
-      rows.add({"hysteresis", "not found: turn the shaft by more than one turn before turning back", ""});
+      rows.add({"hysteresis", "not found: turn the shaft by more than one turn before each reversal", ""});
   }
   add_jitter(rows, f);
   if (f.place) {

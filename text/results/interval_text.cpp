@@ -15,7 +15,7 @@ int decimals_of(const analysis::Interval& x) {
   return std::max(1 - static_cast<int>(std::floor(std::log10(width))), 0);
 }
 
-/// x with the digits of the bounds. Bounds below a thousandth are written with a power of ten.
+/// Writes x with the decimals that give the interval's half width two significant digits; uses a power of ten if both bounds are below 1e-3 in magnitude.
 std::string digits_text(double x, const analysis::Interval& bounds) {
   const int decimals = decimals_of(bounds);
   if (x != 0.0 && std::max(std::fabs(bounds.low), std::fabs(bounds.high)) < 1e-3) {

@@ -24,7 +24,7 @@ std::string bounds(const analysis::FigureColumn& f) {
 }
 
 std::string limits(const OptimumStory& s, const analysis::Optimum& best) {
-  if (!best.holds) return "  no tried point holds every requirement; this is the nearest point\n";
+  if (!best.holds) return "  no tried point holds every requirement; the point above is the nearest\n";
   if (best.limits.empty()) return best.converged ? "  no limit: the minimum is inside all ranges\n" : "";
   std::vector<std::string> words;
   for (const analysis::Limit& limit : best.limits)

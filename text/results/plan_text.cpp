@@ -135,7 +135,7 @@ std::string index_table(const PlanStory& story) {
     const auto found = indices_of(story, f);
     text += fmt::format("  {}: {}\n", visible(story.columns.figures[f].name),
                         found ? "Sobol indices, first order and total, each with its 95 % confidence interval"
-                              : "does not vary, or too few runs have it");
+                              : "the figure does not vary, or too few runs have a value");
     if (!found) continue;
     Rows rows(Rows::Side::right);
     for (std::size_t k = 0; k < found->size(); ++k)

@@ -23,7 +23,7 @@ std::string trace_comparison_text(const std::string& name,
     const auto said = [&unit](double x) { return quantity_text(x, unit, 3); };
     rows.add({one.column.name, fmt::format("{} rows", one.rows), "rms " + said(one.rms),
               fmt::format("at most {} at {}", said(one.greatest), quantity_text(one.at_s, "s", 4)),
-              fmt::format("of a simulated range of {}", said(one.span))});
+              fmt::format("of a range of {} in the simulation", said(one.span))});
   }
   std::string out =
       fmt::format("{} minus the simulation{}:\n{}", name,

@@ -114,7 +114,7 @@ std::string agreement(const WiringStudy& s) {
                           hall_lines_word(c.wiring), does_text(c.theory.does), does_text(c.measured.does));
   return text +
          fmt::format(
-             "{} of {} move in simulation as theory predicts; friction or cogging stops the rotor in the other wirings. Give a larger --current.\n",
+             "{} of {} wirings move in simulation as theory predicts; friction or cogging stops the rotor in the other wirings. Give a larger --current.\n",
              s.agreeing(), s.cases.size());
 }
 
@@ -122,7 +122,7 @@ std::string agreement(const WiringStudy& s) {
 
 std::string wiring_text(const WiringStudy& s) {
   const base::Motion motion = design::motion_of(s.subject.sheet);
-  const std::string columns = " at legs a b c (rows), probes at pins H1 H2 H3 (columns)\n";
+  const std::string columns = " at legs a b c (rows), probes at Hall pins H1 H2 H3 (columns)\n";
   std::string text = visible(s.subject.sheet.name) + "\n\n" + commutation_text() +
                      "\nThe 36 ways to connect the motor: phases" + columns;
   text += grid(s, [](const WiringCase& c) { return std::string(does_text(c.measured.does)); });

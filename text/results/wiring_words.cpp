@@ -136,11 +136,11 @@ std::string cure_mark(const analysis::Cure& c) {
 
 std::span<const std::pair<std::string_view, std::string_view>> recipe_steps() {
   static constexpr std::pair<std::string_view, std::string_view> steps[] = {
-      {"it jerks and hums", "swap any two phase wires; then the motor runs"},
+      {"the motor jerks and hums", "swap any two phase wires; then the motor runs"},
       {"it runs rough",
-       "move all three phase wires by one leg, and once more if the motor is still rough; it then runs well in the opposite direction"},
-      {"it runs well, but backward",
-       "swap the phase wires at legs a and b and the Hall lines at H2 and H3, or invert the reference"},
+       "move all three phase wires by one leg, and once more if the motor is still rough; the motor then runs well in the opposite direction"},
+      {"the motor runs well, but backward",
+       "swap the phase wires at legs a and b and the Hall lines at H2 and H3, or reverse the sign of the reference"},
   };
   return steps;
 }

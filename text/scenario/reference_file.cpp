@@ -53,7 +53,7 @@ class RowsOf {
     const std::size_t more = std::max(bad_, told_.size()) - out.size();
     if (more > 0)
       out.push_back({.where = r_.name + ":",
-                     .limit = fmt::format("is wrong in {} more lines", more),
+                     .limit = fmt::format("has wrong rows in {} more lines", more),
                      .cure = fmt::format("each row is {}", first_.row)});
     return out;
   }
@@ -81,7 +81,7 @@ class RowsOf {
       names += fmt::format("{}\"{}\"", n == 1 ? "" : ", ", r_.columns[n].name);
     const std::string keep = fmt::format("keep two columns: {}", first_.row);
     return at_line(r_.line_of(0), fmt::format("has {} columns: {}", r_.columns.size(), names),
-                   r_.has_headings && first_.selects ? "name the wanted column" : keep);
+                   r_.has_headings && first_.selects ? "name the column in reference.column" : keep);
   }
 
   /// Reports cells that are not numbers, each line once.

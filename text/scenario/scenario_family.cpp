@@ -64,9 +64,9 @@ class Family {
       return base::Problems{};
     };
     if (std::find(chain_.begin(), chain_.end(), beside(from, base.file)) != chain_.end())
-      return refuse("names a file that itself extends this file", "put the common keys into a third file");
+      return refuse("names a file that extends this file", "put the common keys into a third file");
     if (++files_ > most_files)
-      return refuse(fmt::format("extends more than {} files", most_files), "join some of the files");
+      return refuse(fmt::format("extends more than {} files", most_files), "merge some of the files");
     base::Result<NamedText> found = find_text(resolve_, {Naming::Kind::scenario, base.file, from});
     if (!found) return refuse(found.problems().front().limit, found.problems().front().cure);
     base::Result<Document> read_base = read(found->name, std::move(found->text));

@@ -31,7 +31,7 @@ base::Problem too_deep(std::string_view name, std::string_view text, std::size_t
   return {.where = fmt::format("{}:{}:{}:", name, 1 + std::count(before.begin(), before.end(), '\n'),
                                at - line_start + 1),
           .limit = fmt::format("nests deeper than {} tables or lists", deepest),
-          .cure = "remove levels: no key is deeper than control.current.settle_s"};
+          .cure = "remove levels: the deepest keys have three parts, as control.current.settle_s"};
 }
 
 }  // namespace

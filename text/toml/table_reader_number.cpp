@@ -107,7 +107,7 @@ base::Result<double> TableReader::number_of(const toml::node& node, const base::
       return base::Problem{
           .limit = fmt::format("is in the unit of {}, which has no numeric value here", about.unit_of),
           .cure = "name a key of the scenario with a number, for example supply.voltage_V"};
-    return base::Problem{.limit = "is in the unit of control.mode, and this mode has none",
+    return base::Problem{.limit = "is in the unit of control.mode, but this mode has no unit",
                          .cure = "set control.mode, or write a number without quotes"};
   }
   if (node.is_integer()) return static_cast<double>(node.as_integer()->get()) / factor;

@@ -22,7 +22,7 @@ std::optional<base::Spelling> TableReader::spelling_in_file(std::string_view key
     if (!node) return;
     if (used)
       complaints_.value(*node, at(spelling.key),
-                        {.limit = fmt::format("is given already, as {}", used->key),
+                        {.limit = fmt::format("is already given, as {}", used->key),
                          .cure = "keep one of the two keys, which have the same meaning"});
     else
       used = spelling;
@@ -175,7 +175,7 @@ void TableReader::frame(const toml::node& node, const std::string& path, const b
   else
     complaints_.value(node, path + ".frame",
                       {.limit = fmt::format("must be {}", quoted_alternatives(frames)),
-                       .cure = "give the points between which the sheet measures the value"});
+                       .cure = "write frame = with the points between which the sheet measures the value"});
 }
 
 }  // namespace text

@@ -87,7 +87,7 @@ std::optional<py::error_already_set> Controller::take_error() { return std::exch
 
 const char* Controller::design(const sixstep_given* given, const sixstep_real*, void* config) {
   Controller* const own = designed;
-  if (own == nullptr) return "was made in Python and can only be run from there";
+  if (own == nullptr) return "was made in Python and can be run only from Python";
   static_cast<Config*>(config)->controller = own;
   own->chopping_ = given->chopping;
   own->mode_ = given->mode;
@@ -178,7 +178,8 @@ void declare_controller(py::module_& module) {
       .def_readonly("bus_V", &sixstep_measured::bus_V, "bus voltage, V")
       .def_readonly("magnet_cos", &sixstep_measured::magnet_cos,
                     "cosine of the magnet's electrical angle from phase a's axis")
-      .def_readonly("magnet_sin", &sixstep_measured::magnet_sin, "sine of the same angle")
+      .def_readonly("magnet_sin", &sixstep_measured::magnet_sin,
+                    "sine of the magnet's electrical angle from phase a's axis")
       .def_readonly("hall", &sixstep_measured::hall, "Hall code: H1 H2 H3 as bits 2, 1, 0")
       .def_property_readonly(
           "motor_current_A", &control::pair_current,

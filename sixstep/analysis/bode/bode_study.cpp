@@ -41,14 +41,14 @@ base::Problems still_moving(const study::Scenario& run) {
   constexpr double rounding = 1e-12;
   const std::optional<double> rests_s = study::reference_rests_from_s(run);
   if (!rests_s)
-    return {{"reference", "", "never becomes constant, and a loop is measured around a constant value",
-             "make it constant: shape = \"constant\""}};
+    return {{"reference", "", "is never constant, but a loop is measured around a constant value",
+             "set reference.shape = \"constant\""}};
   if (!(*rests_s > run.duration_s * (1 + rounding))) return {};
   return {{"reference", "",
            "moves until " + base::written(*rests_s) +
                " s, and the measurement begins where the run ends, at " + base::written(run.duration_s) +
                " s",
-           "set duration_s = " + base::written(*rests_s) + ", or make it constant: shape = \"constant\""}};
+           "set duration_s = " + base::written(*rests_s) + ", or set reference.shape = \"constant\""}};
 }
 
 /// `run` is the scenario as written, `s` is the same scenario with the settings at the run's end.
@@ -62,11 +62,11 @@ base::Problems not_measurable(const study::Scenario& run, const study::Scenario&
     problems.push_back(
         {"control.slew", "",
          "limits how fast the setpoint changes, so that the response of the loop cannot be measured",
-         "remove it for this measurement"});
+         "remove this key for this measurement"});
   if (s.control.position.profile.on && s.control.mode == Mode::position)
     problems.push_back({"control.position.profile", "",
                         "shapes the setpoint, so that the response of the loop cannot be measured",
-                        "remove it for this measurement"});
+                        "remove this key for this measurement"});
   if (problems.empty()) append(problems, still_moving(run));
   return problems;
 }
@@ -146,7 +146,7 @@ base::Result<study::Session> at_the_end(const study::Scenario& s, const BodeStud
       {.on_record = {}, .on_event = {}, .on_logic = {}, .keep_going = order.keep_going, .keep_books = false});
   if (session && !session->advance(b.begin_s))
     return base::Problem{"duration_s", "", "is not reached: the run ended earlier or was interrupted",
-                         "run the scenario without the measurement to find the cause"};
+                         "find the cause with a run without --bode"};
   return session;
 }
 
@@ -161,7 +161,7 @@ base::Result<std::vector<double>> outputs_of(study::Session& session, BodeStudy&
     const bool goes_on = session.advance(t_s);
     if (!goes_on && n + 1 < (1 + periods) * N)
       return base::Problem{"reference", "", "with the added multisine ended the run early",
-                           "choose a smaller amplitude"};
+                           "give a smaller --amplitude"};
     output.push_back(controlled(session.present().signals, b));
     if (carries_no_current(session.present().signals)) ++without;
   }
@@ -215,7 +215,7 @@ base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& 
   if (!(b.amplitude > 0.0))
     return {{"reference", "",
              "is zero at the end of the run, so that the default amplitude, a twentieth of it, is also zero",
-             "give an amplitude, or set a final reference other than zero"}};
+             "give --amplitude, or set a final reference other than zero"}};
   const base::Result<study::Compiled> compiled = study::compile(last);
   if (!compiled) return compiled.problems();
   b.pole_pairs = compiled->motor.machine.pole_pairs;

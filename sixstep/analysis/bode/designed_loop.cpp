@@ -18,16 +18,16 @@ using control::Mode;
 std::string nonlinear_block(const study::Scenario& s, const study::Compiled& c,
                             const control::DriveConfig<double>& drive) {
   if (drive.current_control == control::CurrentControl::hysteresis)
-    return "the current loop is a hysteresis, which is not linear";
+    return "the current controller is a hysteresis, which is not linear";
   if (c.field && c.field->finite_set.on)
     return "finite-set control chooses among the legs' states, which is not linear";
   if (s.control.mode == Mode::current) return "";
   if (drive.extras.on && drive.extras.predicts_current)
-    return "a linear loop with a predicted current exists for the current loop only";
+    return "with a predicted current only the current loop has a linear model";
   if (drive.speed_control == control::SpeedControl::duty)
     return "the speed controller sets the duty directly, without a current loop";
   if (s.control.mode == Mode::position && drive.extras.on && drive.extras.speed_law != control::SpeedLaw::pi)
-    return "the inner speed controller is not the PI in velocity form";
+    return "only with an inner speed controller of type PI in velocity form the position loop has a linear model";
   if (c.field && c.field->per_ampere.k_per_A != 0)
     return "a salient rotor's torque is not proportional to its current";
   return "";

@@ -113,10 +113,10 @@ base::Problems unfit(const CommissionSubject& subject) {
          "cannot be commissioned: the test moves the field over many pole pitches each way, and a track is too short",
          "measure R, L and back-EMF on a bench"}};
   if (subject.sheet.connection == design::WindingConnection::delta)
-    return {{"connection", "delta",
-             "cannot be commissioned: the chip identifies the values of a star, and the loop current of a "
-             "delta falsifies them",
-             "measure R, L and back-EMF on a bench"}};
+    return {
+        {"connection", "delta",
+         "cannot be commissioned: the chip identifies the values of a star, and the loop current of a delta falsifies these values",
+         "measure R, L and back-EMF on a bench"}};
   return {};
 }
 
@@ -169,8 +169,8 @@ base::Result<TestCurrentFrom> current_of(const CommissionSubject& subject, const
         "must be above 0 and at most " + base::rounded(most_A, 4) +
             " A, which the bus can drive and at which the rotor stays aligned with the field",
         nominal.printed
-            ? "remove it: the default is twice the sheet's nominal current, at most half of that bound"
-            : "remove it: the default is at most half of that bound"};
+            ? "leave the current out: the default is twice the sheet's nominal current, at most half of this largest current"
+            : "leave the current out: the default is at most half of this largest current"};
   return TestCurrentFrom{I, from};
 }
 
@@ -184,12 +184,15 @@ base::Problems too_weak(const CommissionBench& b, const design::MotorModel& moto
              "pulls the rotor with " + base::rounded(1e3 * torque, 3) + " mNm against " +
                  base::rounded(1e3 * against, 3) +
                  " mNm of friction and cogging: the rotor does not align with the field",
-             "raise the test current until its torque is above 10/3 of friction and cogging"}};
+             "raise current_A above " +
+                 base::written(
+                     base::shortened(b.wish.test_A * against / (most_part * torque), 3, base::Towards::up)) +
+                 " A: the torque must exceed 10/3 times the sum of friction and cogging"}};
   if (!(b.longest_s < most_s))
     return {{"current_A", base::written(b.wish.test_A),
              "makes the test last up to " + base::rounded(b.longest_s, 3) + " s, more than " +
                  base::rounded(most_s, 3) + " s: the rotor takes too long to come to rest in the field",
-             "raise the test current, or check the units of the motor's inertia and torque constant"}};
+             "raise current_A, or correct the units of inertia and torque constant in the motor file"}};
   return {};
 }
 
@@ -201,7 +204,7 @@ base::Result<CommissionBench> commission_bench(const CommissionSubject& subject)
   if (base::Problems found = unfit(subject); !found.empty()) return found;
   base::Problems wrong =
       base::out_of_range("hall_offset_deg", subject.hall_offset_deg, base::between(-180, 180), "deg",
-                         "give the angle by which all Hall edges come late, in electrical degrees");
+                         "give the angle by which all Hall edges come late, -180 to 180 electrical degrees");
   if (!wrong.empty()) return wrong;
   const base::Result<double> V = voltage_of(subject, *motor);
   if (!V) return V.problems();

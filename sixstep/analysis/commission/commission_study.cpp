@@ -81,6 +81,12 @@ bool turns_by(const CommissionStudy& s) {
   return true;
 }
 
+const char* reason(sim::Stop stop) {
+  if (stop == sim::Stop::fault) return "a fault";
+  return stop == sim::Stop::unsettled ? "no consistent conduction mode"
+                                      : "switching events that repeat without end at one instant";
+}
+
 }  // namespace
 
 double CommissionStudy::worst_edge_deg() const {
@@ -116,10 +122,11 @@ base::Result<CommissionStudy> study_commission(const CommissionOrder& order) {
       return base::Problem{"commission", "", "was interrupted", "start it again"};
     const double t_s = row_s * static_cast<double>(n);
     if (t_s > s.bench.longest_s) break;
-    if (sim::run(rig, sim::to_instant(t_s), none).stop != sim::Stop::end)
+    if (const sim::Stop stop = sim::run(rig, sim::to_instant(t_s), none).stop; stop != sim::Stop::end)
       return base::Problem{"motor", s.subject.motor,
-                           "stopped the simulated test before the chip had finished",
-                           "check the values of the motor's sheet"};
+                           std::string("cannot be commissioned: the simulation ended with ") + reason(stop) +
+                               " before the commissioning test was complete",
+                           "correct the values in the motor file"};
     note(rig, s.bench, t_s, s);
   }
   s.state = rig.firmware().found();

@@ -49,7 +49,7 @@ base::Result<design::DriveDesign> drive_design(const design::MotorModel& motor, 
   if (!first) return first;
   if (!(first->headroom_end_rad_s > 0.0))
     return base::Problem{"voltage_V", base::rounded(first->bus_V, 4),
-                         "cannot drive the nominal current, not even at standstill",
+                         "cannot drive the nominal current even at standstill",
                          "give a higher bus voltage in V"};
   if (c.settle_s || !is_grave(*first)) return first;
   const double chosen_s = first->spec.settle_s.value_or(10e-3);
@@ -61,7 +61,7 @@ base::Result<design::DriveDesign> drive_design(const design::MotorModel& motor, 
   return base::Problem{
       "the motor", c.motor,
       "has no usable speed loop with Hall probes, not even with 20 times the design's settling time",
-      "design the speed loop of this motor to find the reason, or give a settling time"};
+      "find the reason with sixstep design --mode speed, or give a settling time"};
 }
 
 Course course_of(const design::DriveDesign& d) {
@@ -210,7 +210,7 @@ study::Bridge usual_bridge(const design::DriveDesign& d) {
 base::Result<ContestBench> contest_bench(const ContestSpec& spec) {
   if (spec.sheet.kind == design::MotorKind::linear)
     return base::Problem{"the motor", spec.motor, "is a linear motor, and only rotary motors can be compared",
-                         "design each controller separately"};
+                         "design each controller with sixstep design instead"};
   const base::Result<design::MotorModel> motor = design::motor_model(spec.sheet);
   if (!motor) return motor.problems();
   base::Result<design::DriveDesign> d = drive_design(*motor, spec);
@@ -255,7 +255,8 @@ base::Result<std::vector<ContestKey>> keys_of(const Contestant& contestant, cons
   }
   if (const std::size_t at = keys.find('<'); at != std::string::npos)
     return base::Problem{std::string(contestant.name), keys.substr(at, keys.find('>', at) + 1 - at),
-                         "has no rule that computes it", "use one of contest_values()"};
+                         "is a placeholder for which no rule computes a value",
+                         "use a placeholder that contest_values() lists"};
   std::string_view rest = keys;
   while (!rest.empty()) {
     const std::string_view one = rest.substr(0, rest.find("; "));

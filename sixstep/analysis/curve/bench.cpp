@@ -30,11 +30,11 @@ void check_pace(const Bench& b, base::Problems& problems) {
            "makes the field turn at " + base::rounded(plant::field_at(m, b.voltage_V), 3) +
                " electrical rad/s, and no motor reaches more than " +
                base::rounded(plant::fastest_field_rad_s, 3),
-           "lower the voltage, or check the unit of the motor's torque constant");
+           "give a lower voltage, or correct the unit of the torque constant in the motor file");
   if (plant::winding_rate(m, b.devices) > plant::fastest_answer_1_s)
     refuse("on_resistance_ohm", b.devices.R_on_ohm,
            "makes the time constant of winding and bridge shorter than 100 ns",
-           "check its unit: a MOSFET has milliohms");
+           "check the unit of this value: a MOSFET has milliohms");
   const bool chops = b.duty != 1 && b.duty != -1;
   if (chops && m.L_H / m.R_ohm > most_periods * b.pwm_period_s)
     refuse("pwm_period_s", b.pwm_period_s,

@@ -48,7 +48,7 @@ base::Problems check(const CurveRequest& r) {
                         "give at least 2: standstill and no load"});
   if (r.points > most_points)
     problems.push_back({"points", std::to_string(r.points), "must be at most " + std::to_string(most_points),
-                        "give fewer points; a page shows some hundred"});
+                        "give fewer points; some hundred are enough for a page"});
   return problems;
 }
 

@@ -48,8 +48,8 @@ bool bracket(NoLoadSearch& search, const Bench& b, Sample& low, Sample& high) {
   if (!search.take(0.0, low)) return false;
   if (!(low.torque > 0)) {
     search.problems = {{"duty", base::written(b.duty),
-                        "gives no torque beyond the motor's own friction: the rotor does not turn",
-                        "raise the duty or the voltage"}};
+                        "gives less torque than the motor's friction, so the rotor does not turn",
+                        "give a higher duty or voltage"}};
     return false;
   }
   constexpr int steps = 10;
@@ -61,7 +61,7 @@ bool bracket(NoLoadSearch& search, const Bench& b, Sample& low, Sample& high) {
   }
   search.problems = {{"speed", base::written(high.speed) + " rad/s",
                       "is more than seven times the ideal no-load speed, and the torque is still positive",
-                      "check the sheet's torque constant and friction"}};
+                      "correct torque constant and friction in the motor file"}};
   return false;
 }
 

@@ -29,10 +29,11 @@ double sector_seconds(const Bench& b, double speed) {
 /// The Problem of a run that stopped before its end or its target edge.
 base::Problem ended_early(double speed, sim::Stop stop) {
   if (stop == sim::Stop::end || stop == sim::Stop::observer) return interrupted_work();
-  return {"speed " + base::written(speed) + " rad/s", "",
-          stop == sim::Stop::unsettled ? "no consistent conduction mode was found"
-                                       : "switching events repeat without end at one instant",
-          "this is a defect of sixstep: please report it with the motor file"};
+  return {
+      "speed " + base::written(speed) + " rad/s", "",
+      stop == sim::Stop::unsettled ? "no consistent conduction mode was found"
+                                   : "switching events repeat without end at one instant",
+      "this is a defect of sixstep: report this message, with the motor file, in the issues of the repository"};
 }
 
 /// Electrical mean values of the orbit; take_to_shaft() subtracts the friction.
@@ -268,7 +269,7 @@ OperatingPoint stall(const Bench& b) {
 base::Result<OperatingPoint> operating_point(const Bench& b, double speed) {
   base::Problems problems = check(b);
   if (!(speed - speed == 0.0))
-    problems.push_back({"speed", base::written(speed), "must be a finite number", "give it in rad/s"});
+    problems.push_back({"speed", base::written(speed), "must be a finite number", "give the speed in rad/s"});
   if (!problems.empty()) return problems;
   if (told_to_stop(b)) return interrupted_work();
   const bool full = b.duty == 1 || b.duty == -1;

@@ -37,7 +37,7 @@ base::Problems check_built_speed(double electrical_Hz, int pole_pairs) {
   if (rpm < built_shaft_rpm.low)
     return {{.where = "time",
              .limit = "gives the shaft " + base::three_digits(rpm) + " rpm" + pairs +
-                      (pole_pairs == 0 ? " at the most" : "") + ", and a motor below " +
+                      (pole_pairs == 0 ? " at the most" : "") + ", and a motor that turns below " +
                       base::written(built_shaft_rpm.low) + " rpm has too little back-EMF to measure",
              .cure = std::string("check the unit of time and the time from row to row") +
                      (pole_pairs > 1 ? ", and whether the motor has fewer pole pairs" : "")}};
@@ -58,9 +58,9 @@ base::Problems check_built_constant(double line_peak_V_s, double electrical_Hz, 
                     (low ? "less than " + base::written(built_line_mV_s.low)
                          : "more than " + base::six_digits(built_line_mV_s.high)) +
                     " mV s/rad",
-           .cure = std::string("check the units of time and voltage and the probe's factor: ") +
-                   (low ? "the voltage is read too small, or the time too short"
-                        : "the voltage is read too great, or the time too long") +
+           .cure = std::string("correct the units of time and voltage or the probe's factor: ") +
+                   (low ? "the voltage is too small, or the time is too short"
+                        : "the voltage is too great, or the time is too long") +
                    pairs}};
 }
 

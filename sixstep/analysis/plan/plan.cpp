@@ -70,14 +70,15 @@ class Checker {
   base::Problems problems() {
     for (std::size_t n = 0; n < plan_.axes.size(); ++n) axis(n);
     if (plan_.axes.empty() && plan_.drives == 0)
-      add("vary", "", "is missing: all runs would be the same", "name a key and its values");
+      add("vary", "", "is missing: without a varied key all runs would be the same",
+          "name a key and its values");
     const std::size_t dimensions = plan_.axes.size() * (plan_.sampling == Sampling::saltelli ? 2 : 1);
     const bool even = plan_.sampling == Sampling::sobol || plan_.sampling == Sampling::saltelli;
     if (even && dimensions > sobol_dimensions)
-      add("vary", std::to_string(plan_.axes.size()), "are more keys than the sequence has dimensions",
+      add("vary", std::to_string(plan_.axes.size()), "are more varied keys than the sequence has dimensions",
           "vary at most " + std::to_string(sobol_dimensions * plan_.axes.size() / dimensions));
     if (plan_.sampling != Sampling::grid && !plan_.axes.empty() && plan_.points == 0)
-      add("points", "0", "leaves no point to run", "give the number of points");
+      add("points", "0", "gives a plan without points", "give the number of points");
     if (plan_.sampling == Sampling::saltelli && plan_.drives > 0)
       add("drives", std::to_string(plan_.drives), "vary at random, and Sobol indices need planned points",
           "vary these values as keys of [[vary]] over their ranges, with strays = true");
@@ -93,13 +94,14 @@ class Checker {
     const std::string where = "vary[" + std::to_string(n) + "].";
     const auto same = [&](const Axis& other) { return other.key == a.key; };
     const auto here = plan_.axes.begin() + static_cast<std::ptrdiff_t>(n);
-    if (a.key.empty()) return add(where + "key", "", "is missing", "name it as table.key");
+    if (a.key.empty()) return add(where + "key", "", "is missing", "name the key as table.key");
     if (std::any_of(plan_.axes.begin(), here, same))
-      return add(where + "key", a.key, "is varied already", "give all values of this key in one entry");
+      return add(where + "key", a.key, "is varied already",
+                 "give all values of this key in one entry of [[vary]]");
     if (!a.values.empty()) return;
     if (!std::isfinite(a.from) || !std::isfinite(a.to))
-      return add(where + "from", base::written(a.from), "and the other end do not make a range",
-                 "give two finite numbers");
+      return add(where + "from", base::written(a.from),
+                 "must be a finite number, like the other end of the range", "give two finite numbers");
     if (a.spacing == Spacing::logarithmic && !(a.from > 0.0 && a.to > 0.0))
       return add(where + "from", base::written(std::min(a.from, a.to)),
                  "must be above 0, like both ends of a logarithmic range",

@@ -53,27 +53,30 @@ inline void describe(base::Visitor& v, AxisEntry& s) {
   v.value("to", s.to, {.meaning = "second end of the range", .unit_of = s.key});
   v.value("points", s.points,
           {.meaning = "values from one end to the other on a grid", .range = base::between(0, 1e9)});
-  v.choice("spacing", s.spacing, spacing_choices, {.meaning = "spacing of the values between the ends"});
+  v.choice("spacing", s.spacing, spacing_choices,
+           {.meaning = "whether the values are spaced equally (linear) or by equal ratios (log)"});
   v.value(
       "strays", s.strays,
       {.meaning =
-           "whether only the simulated drive has this value, as with [[spread]], and its controller is designed for the nominal value; otherwise the controller is designed for each value"});
+           "true: only the simulated drive has this value, and its controller is designed for the nominal value, as with [[spread]]; false: the controller is designed for each value"});
 }
 
 inline void describe(base::Visitor& v, PlanEntry& s) {
   v.value("title", s.title, {.meaning = "one line that names the plan"});
-  v.value("scenario", s.scenario, {.meaning = "scenario of all runs, beside this file", .required = true});
+  v.value("scenario", s.scenario,
+          {.meaning = "scenario of all runs, as a path relative to this file", .required = true});
   v.value("notes", s.notes, {.meaning = "question that the plan answers, shown on its page"});
-  v.choice("sampling", s.sampling, sampling_choices, {.meaning = "arrangement of the points"});
-  v.value("points", s.points,
-          {.meaning = "number of points, except for a grid; saltelli makes points x (keys + 2)",
-           .range = base::between(0, 1e9)});
+  v.choice("sampling", s.sampling, sampling_choices, {.meaning = "how the points are placed in the ranges"});
+  v.value(
+      "points", s.points,
+      {.meaning = "number of points of all arrangements except grid; saltelli makes points x (keys + 2) runs",
+       .range = base::between(0, 1e9)});
   v.value(
       "drives", s.drives,
-      {.meaning = "drives of the series that [[spread]] describes, at each point; 0: the drive as written",
+      {.meaning = "number of drives of the series of [[spread]], at each point; 0: only the drive as written",
        .range = base::between(0, 1e9)});
   v.value("seed", s.seed,
-          {.meaning = "seed of the drawn drives and points: another number gives another series",
+          {.meaning = "seed of the random drives and points; another seed gives another series",
            .range = base::from(0)});
   v.value("sheet_tolerances", s.sheet_tolerances,
           {.meaning =

@@ -104,7 +104,7 @@ base::Result<RunRecord> RunRecord::of(TableColumns columns, RunValues values) {
           so_many(values.figures.size(), "measured values"),
       "do not fit the table, which has " + so_many(c.keys.size(), "varied, ") +
           so_many(c.strayed.size(), "strayed and ") + so_many(c.figures.size(), "measured columns"),
-      "this is a defect of sixstep: please report it with the command"};
+      "this is a defect of sixstep: report this message, with the command, in the issues of the repository"};
 }
 
 RunRecord RunRecord::without_figures(TableColumns columns, std::size_t number, std::vector<std::string> point,

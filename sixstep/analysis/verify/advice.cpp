@@ -58,7 +58,7 @@ std::optional<DriveDesign> in_closed_form(const DesignOrder& order, const Design
 }
 
 void add_cure(std::string& cure, const std::string& words) {
-  cure += (cure.empty() ? "with " : ", or with ") + words + " this warning does not appear";
+  cure += (cure.empty() ? "with " : ", or with ") + words + " the design gives no such warning";
 }
 
 /// Finds changes of a usable design that remove one of its warnings and add none.
@@ -187,7 +187,7 @@ std::string smaller_step(const DesignOrder& order, const DesignStudy& s) {
 /// Text for the case that all tried changes failed.
 std::string nothing_tried(const DriveDesign& d, bool too_long) {
   std::string text =
-      "none of the tried changes makes the design usable: another chopping, period or sensor, slower loops, less torque";
+      "none of the tried changes makes the design usable: other chopping, other period_s, other rotor sensor, slower loops, lower torque limit";
   if (too_long) text += "; changes that take longer to simulate were not tried";
   if (d.spec.settle_s && d.settle_by_torque_s > *d.spec.settle_s)
     text += "; this torque limit and inertia need settle_s = " +
@@ -214,7 +214,7 @@ std::string board_is_the_cause(const DesignOrder& order) {
   const bool crossed =
       board.sensors.hall_lines != usual.sensors.hall_lines || board.bridge.phases != usual.bridge.phases;
   if (crossed && holds_on(straight))
-    return "correct the wiring (sensors.hall_lines, bridge.phases): with straight wires the design is usable";
+    return "set sensors.hall_lines = \"123\" and bridge.phases = \"abc\": with straight wires the design is usable";
   if (!board.sensors.current_bandwidth_Hz ||
       !holds_on([](study::Scenario& s) { s.sensors.current_bandwidth_Hz.reset(); }))
     return {};
@@ -223,7 +223,7 @@ std::string board_is_the_cause(const DesignOrder& order) {
         holds_on([wider_Hz](study::Scenario& s) { s.sensors.current_bandwidth_Hz = wider_Hz; }))
       return "the current amplifier is too slow: the design is usable with sensors.current_bandwidth_Hz = " +
              base::written(wider_Hz);
-  return "the current amplifier is too slow: the design is usable without the amplifier's lag";
+  return "the current amplifier is too slow: remove sensors.current_bandwidth_Hz; without this lag the design is usable";
 }
 
 /// Finds changes that make an unusable design usable.
@@ -275,9 +275,9 @@ void advise(const DesignOrder& order, base::Problems& problems) {
   const auto grave =
       std::find_if(d->warnings.begin(), d->warnings.end(), [](const Warning& w) { return w.grave; });
   if (const std::string words = rescue(order, *d).words; !words.empty())
-    problems.front().cure = "take " + words;
+    problems.front().cure = "set " + words;
   else if (grave != d->warnings.end())  // a gain would not remove this problem
-    problems.front().cure = "correct the design's first problem: " + grave->what;
+    problems.front().cure = "correct the design's first problem first: " + grave->what;
 }
 
 void advise(const DesignOrder& order, DesignStudy& study) {

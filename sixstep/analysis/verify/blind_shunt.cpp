@@ -66,9 +66,9 @@ void look_at_blind_shunt(const DesignOrder& order, DesignStudy& s) {
   const double unseen_A = unseen_current_A(s.design, s.scenario);
   if (unseen_A == 0.0) return;
   const std::string blind = "with the rotor at rest a single shunt measures no current below " +
-                            base::three_digits(unseen_A) + " A, because the pulse is too short";
+                            base::three_digits(unseen_A) + " A, because the pulse is too short for a sample";
   design::Warning w{.what = blind + "; smaller currents are not controlled",
-                    .cure = "measure the phase currents, or reduce " + hiding(s.scenario),
+                    .cure = "set sensors.currents = \"phases\", or reduce " + hiding(s.scenario),
                     .of = design::Concern::shunt};
   if (s.design.spec.mode == control::Mode::current && std::fabs(s.scenario.reference.value) < unseen_A) {
     w.what = blind + "; the step commands only " + base::three_digits(std::fabs(s.scenario.reference.value)) +

@@ -26,8 +26,8 @@ std::string slower(const study::Scenario& s, const study::Outcome& run, const st
     return "the start never settles";
   const double now = of(run, "settling time"), before = of(designed, "settling time");
   if (!std::isfinite(before) || now <= 1.25 * before) return {};
-  return "a step settles in " + base::three_digits(1e3 * now) + " ms, and in " +
-         base::three_digits(1e3 * before) + " ms without them";
+  return "a step settles in " + base::three_digits(1e3 * now) + " ms instead of " +
+         base::three_digits(1e3 * before) + " ms";
 }
 
 /// Returns, for example, "41.8 ms" for 0.0418 and "s".
@@ -59,7 +59,7 @@ std::string against(const study::Scenario& s, const study::Outcome& designed,
   if (differs) *differs = others(*run, designed);
   if (run->fault) return to_string(*run->fault);
   for (const study::Verdict& v : run->verdicts)
-    if (!v.ok) return v.figure + " misses its requirement";
+    if (!v.ok) return v.figure + " does not meet its requirement";
   if (run->trip) return "the drive trips: " + run->trip->reasons.front();
   return slower(s, *run, designed);
 }

@@ -103,7 +103,7 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
   const std::optional<double>& step = order.subject.step;
   if (step && !(std::isfinite(*step) && *step != 0.0))
     return base::Problem{"step", base::three_digits(*step), "must be a number other than 0",
-                         "give it in A, rad/s or deg according to the mode"};
+                         "give this value in A, rad/s or deg according to the mode"};
   const base::Result<design::MotorModel> motor = design::motor_model(order.subject.believed_sheet());
   if (!motor) return motor.problems();
   base::Result<design::DriveDesign> design = design::design_drive(*motor, order.spec);

@@ -261,10 +261,11 @@ bool FieldStudy::usable() const {
 
 base::Result<FieldStudy> study_field(const study::Scenario& s) {
   if (s.control.drive != study::FirmwareKind::field)
-    return base::Problem{"control.drive", "", "is not field-oriented", "set it to \"field-oriented\""};
+    return base::Problem{"control.drive", "", "is not field-oriented",
+                         "set control.drive = \"field-oriented\""};
   if (s.control.mode == Mode::off)
     return base::Problem{"control.mode", "\"off\"", "has no loop",
-                         "set it to \"current\", \"speed\" or \"position\""};
+                         "set control.mode = \"current\", \"speed\" or \"position\""};
   if (s.control.field.law == study::FieldLaw::finite_set)
     return base::Problem{"control.field.law", "\"finite-set\"", "has no gains and no linear loop",
                          "run the scenario, or set control.field.law = \"pi\""};

@@ -78,7 +78,7 @@ base::Result<study::Scenario> run_up(const FirstScenarioSpec& spec, const design
   if (!(10 * tau < longest_run_up_s))
     return base::Problem{"the motor", spec.motor,
                          "takes " + base::rounded(10 * tau, 3) + " s to run up, more than the allowed 600 s",
-                         "check the inertia and the torque constant of the motor's sheet"};
+                         "correct the unit of inertia or torque constant in the motor file"};
   s.duration_s = std::ceil(10 * tau * 1e3) / 1e3;  // when the window begins, exp(-9) of the change remains
   const double calm = 0.9 * s.duration_s;
   const study::Measure mean =
@@ -202,8 +202,7 @@ bool foretell_in_middle(design::DesignSpec spec, study::Scenario& s) {
 /// the run exceeds this limit, it is computed at the worst duty.
 void judge_above_the_samples(study::Scenario& s, const DesignStudy& study) {
   s.notes =
-      "The current is sampled at the start of each period, where its ripple is lowest: with samples in the middle of "
-      "centred pulses, whose answer comes half a period later, this drive does not meet its requirements. Therefore the upper limit of the mean allows half of the ripple.";
+      "The current is sampled at the start of each period, where the ripple is lowest. With samples in the middle of centred pulses the answer comes half a period later, and this drive does not meet its requirements. Therefore the upper limit of the mean includes half of the ripple.";
   study::Requirement& mean = s.require.front();
   mean.measure.sampled = false;
   mean.measure.label = "mean of the last ten periods, upper limit with half the ripple";
@@ -309,13 +308,13 @@ base::Result<study::Scenario> begun(const FirstScenarioSpec& spec) {
   if (outcome->fault)
     return base::Problem{"the motor", spec.motor,
                          "is stopped by a fault: " + base::to_string(*outcome->fault),
-                         "start with another mode"};
+                         "start with another --mode"};
   for (const study::Verdict& v : outcome->verdicts)
     if (!v.ok)
       return base::Problem{"the motor", spec.motor,
                            "does not run as its sheet predicts: the " + v.figure + " is " +
                                base::three_digits(v.measured) + " " + v.unit,
-                           "start with another mode, or compare with the torque-speed curve of the motor"};
+                           "start with another --mode, or compare with the torque-speed curve of the motor"};
   return s;
 }
 

@@ -96,7 +96,8 @@ void look_at_swing(DesignStudy& s) {
   if (!allowed || !swing || swing->measured <= *allowed) return;
   warn(s, design::Concern::swing,
        "in the simulation the speed swings by " + base::three_digits(swing->measured) +
-           " rad/s without end; with ideal sensors by " + base::three_digits(*s.ideal_swing_rad_s) + " rad/s",
+           " rad/s without end; with ideal sensors the swing is " + base::three_digits(*s.ideal_swing_rad_s) +
+           " rad/s",
        true);
 }
 

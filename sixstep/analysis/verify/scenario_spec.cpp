@@ -90,7 +90,7 @@ base::Problems passed_over(const study::Scenario& s) {
   const auto tell = [&found](const char* key, std::string_view word) {
     found.push_back({key, '"' + std::string(word) + '"',
                      "is derived in the report of a run; a design derives PI loops only",
-                     "run the scenario and read its report, or set it to \"pi\""});
+                     "run the scenario and read its report, or set this key to \"pi\""});
   };
   if (s.control.current.type == study::CurrentLoopType::deadbeat)
     tell("control.current.type", base::word(study::current_loop_choices, s.control.current.type));

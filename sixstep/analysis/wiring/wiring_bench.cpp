@@ -48,8 +48,8 @@ base::Problems set_current(const WiringSubject& subject, WiringBench& b) {
     return {{"current_A", base::written(b.current_A),
              "must be above 0 and at most " + base::rounded(stall_A, 4) +
                  " A, which the bus drives through the stalled motor",
-             printed ? "remove it: the default is the sheet's nominal current"
-                     : "remove it: the default is a tenth of that current"}};
+             printed ? "leave the current out: the default is the sheet's nominal current"
+                     : "leave the current out: the default is a tenth of the current at full duty"}};
   b.duty = b.current_A / stall_A;
   return {};
 }
@@ -118,10 +118,11 @@ base::Result<WiringBench> wiring_bench(const WiringSubject& subject) {
   set_times(b);
   const double longest = std::max(b.free_s, b.turned_from_s + b.turned_s);
   if (!(longest <= most_periods * study::Pwm{}.period_s))
-    return base::Problem{"current_A", base::written(b.current_A),
-                         "makes each of the 252 runs last " + base::rounded(longest, 3) +
-                             " s: the motor is too slow with this current",
-                         "raise the current, or check the units of the motor's inertia and torque constant"};
+    return base::Problem{
+        "current_A", base::written(b.current_A),
+        "makes each of the 252 runs last " + base::rounded(longest, 3) +
+            " s: the motor is too slow with this current",
+        "give a higher current, or correct the units of inertia and torque constant in the motor file"};
   return b;
 }
 

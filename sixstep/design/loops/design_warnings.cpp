@@ -136,7 +136,7 @@ void look_at_ripple(const DriveDesign& d, Collector& out) {
   if (grave)
     what += "; a choke of " + milli((d.spec.period_s / allowed_s - 1) * d.motor.machine.L_H) +
             " mH in each motor lead reduces the ripple to " + base::three_digits(100 * greatest_ripple) +
-            (d.nominal_printed ? " % of the nominal current" : " % of that current");
+            (d.nominal_printed ? " % of the nominal current" : " % of this current");
   out.add(Concern::ripple, std::move(what), grave);
 }
 
@@ -160,7 +160,7 @@ void look_at_voltage(const DriveDesign& d, Collector& out) {
     out.add(Concern::voltage, "a step of " + std::string(nominal_current_words(d)) + " needs " +
                                   base::three_digits(first_V) + " V at once, but the bus has only " +
                                   base::three_digits(d.bus_V) +
-                                  " V: the current settles later than designed");
+                                  " V, so the current settles later than designed");
   if (d.headroom_end_rad_s <= 0.0)
     out.add(Concern::voltage,
             "the bus cannot drive " + std::string(nominal_current_words(d)) + " even through the held rotor",
@@ -186,8 +186,8 @@ void look_at_heat(const DriveDesign& d, Collector& out) {
               base::three_digits(d.nominal_current_A) + " A, is used instead",
           false,
           current
-              ? "give the sheet's nominal_current_A"
-              : "give the sheet's nominal_current_A, or a torque_limit_Nm that bridge and winding withstand");
+              ? "give nominal_current_A in the motor file"
+              : "give nominal_current_A in the motor file, or a torque_limit_Nm that bridge and winding withstand");
     return;
   }
   const double most_A = d.most_current_A();
@@ -223,7 +223,7 @@ std::vector<Warning> warnings_of(const DriveDesign& d) {
   look_at_heat(d, out);
   if (!d.motor.left_to_a_run.empty())
     out.add(Concern::other, "this design neglects " + d.motor.left_to_a_run + ", which a run simulates",
-            false, "check it by a run of your scenario");
+            false, "check the design by a run of your scenario");
   return out.found;
 }
 

@@ -118,7 +118,7 @@ base::Result<LoopDesign> speed_loop(const DriveDesign& d) {
       return base::Problem{
           "bandwidth_rad_s", base::written(*w.bandwidth_rad_s),
           "must be below the limit from the current loop's lag, " + base::written(1.0 / lag) + " rad/s",
-          "lower it; at a third of this limit the rule gives a phase margin of 53 degrees"};
+          "lower this value; at a third of this limit the rule gives a phase margin of 53 degrees"};
     return by_rule("speed", "symmetrical optimum",
                    symmetrical_optimum(shaft.J_kg_m2, d.torque_limit_Nm, lag, a, w.period_s));
   }

@@ -12,7 +12,8 @@
 
 namespace sixstep::design {
 
-/// Winding that the current controller drives: L di/dt = u - R i - K_e w, and J dw/dt = K_t i - B w, d theta/dt = w.
+/// Winding that the current controller drives, L di/dt = u - R i - K_e w with voltage u and speed w; its torque
+/// K_t i accelerates the shaft (J, B of the MotorModel).
 struct LoopWinding {
   double R_ohm = 0.0, L_H = 0.0;
   double back_emf_V_s = 0.0;  ///< K_e, V per rad/s
@@ -26,9 +27,8 @@ LoopWinding driven_pair(const MotorModel& motor, control::Chopping chopping);
 ZohPlant current_plant(const LoopWinding& winding, double period_s);
 /// Adds a step about the chopping to a derivation, unless volts_per_duty() is 1.
 void tell_chopping(control::Chopping chopping, std::vector<DerivationStep>& steps);
-/// Winding of the axis across the magnet: R, L_q and p psi of a phase, and 3/2 p psi of torque. If the axes
-/// are decoupled, the controller adds the voltage of the rotation to its output; this voltage then has no
-/// effect in the loop.
+/// Winding of the q axis: R and L_q of a phase, K_e = p psi, K_t = 3/2 p psi. If the axes are decoupled, K_e = 0,
+/// because the controller adds the rotation's voltage itself.
 LoopWinding quadrature_axis(const FieldMachine& machine, bool decoupled);
 
 struct DriveLoops {

@@ -39,7 +39,7 @@ base::Result<FieldAxis> field_axis(double R_ohm, double L_H, const FieldLoopSpec
     return base::Problem{
         "bandwidth_rad_s", base::written(spec.bandwidth_rad_s),
         "is more than a delay of one period allows, ln 2 / T_s = " + base::rounded(most, 5) + " rad/s",
-        "lower it, or shorten the control period"};
+        "lower this value, or shorten the control period"};
   FieldAxis axis{.gains = rule->gains,
                  .pole = base::exp(-spec.bandwidth_rad_s * spec.period_s),
                  .other_pole = 0.0,

@@ -49,9 +49,9 @@ base::Problems injected(const FieldMachine& m, double saturation_A, const FieldE
   if (part < least_saturation)
     return {{"control.field.angle", "\"injection\"",
              saturation_A > 0
-                 ? "distinguishes north from south by less than 1 % of the current's response"
+                 ? "distinguishes north from south by a difference of less than 1 % of the current's response"
                  : "distinguishes north from south by saturation, and the sheet has no saturation_current_A",
-             saturation_A > 0 ? "allow more current, or set angle = \"observer\""
+             saturation_A > 0 ? "raise control.current.limit_A, or set angle = \"observer\""
                               : "give saturation_current_A in the motor file, or set angle = \"observer\""}};
   const double most_V = 0.25 * s.bus_V * by_root_3, gentle_V = 0.2 * s.current_A * m.L_d_H / s.period_s;
   const double V = s.injection_V.value_or(std::min(most_V, gentle_V));

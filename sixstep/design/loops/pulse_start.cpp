@@ -142,17 +142,17 @@ base::Problem too_strong(const Basis& b, const PulseStart& s) {
     return {"period_s", base::rounded(spec.period_s, 4),
             "makes the pulses too long: they turn the rotor by " + base::rounded(s.turned_deg, 3) +
                 " electrical degrees, or last longer than 2 L/R",
-            "shorten the period, or start by alignment"};
+            "shorten period_s, or set starts_by = alignment"};
   if (b.limit_A == spec.most_A)
     return {"overload", "", "allows " + base::rounded(b.limit_A, 3) + " A, and one control period " + makes,
-            "raise overload, shorten the period, or start by alignment"};
+            "raise overload, shorten period_s, or set starts_by = alignment"};
   if (spec.saturation_A > 0.0 && b.limit_A == base::root_3 / 2 * spec.saturation_A / 2)
     return {"period_s", base::rounded(spec.period_s, 4),
             makes + ", and the model of saturation holds up to " + base::rounded(b.limit_A, 3) + " A",
-            "shorten the period, or start by alignment"};
+            "shorten period_s, or set starts_by = alignment"};
   return {"current_range_A", base::rounded(spec.current_range_A, 4),
           "is exceeded: one control period " + makes,
-          "widen the range, shorten the period, or start by alignment"};
+          "raise current_range_A, shorten period_s, or set starts_by = alignment"};
 }
 
 base::Problems problems_of(const MotorModel& motor, const PulseSpec& spec) {
@@ -165,18 +165,18 @@ base::Problems problems_of(const MotorModel& motor, const PulseSpec& spec) {
   above_0("current_range_A", spec.current_range_A, "give the current at the converter's full scale");
   if (spec.adc_bits < 6 || spec.adc_bits > 16)
     problems.push_back(
-        {"adc_bits", std::to_string(spec.adc_bits), "must be 6 to 16", "choose another converter"});
+        {"adc_bits", std::to_string(spec.adc_bits), "must be 6 to 16", "set adc_bits to 6 to 16"});
   if (!(motor.shaft.J_kg_m2 > 0.0) || !(motor.machine.R_ohm > 0.0) || !(spec.L_d_H > 0.0) ||
       !(spec.L_q_H > 0.0))
-    problems.push_back(
-        {"motor", "", "must have resistance, inductance and inertia", "give them in the motor's file"});
+    problems.push_back({"motor", "", "must have resistance, inductance and inertia",
+                        "give resistance_ohm, inductance_mH and inertia_gcm2 in the motor file"});
   return problems;
 }
 
 std::vector<DerivationStep> steps_of(const Basis& b, const PulseStart& s) {
   return {{"t_pulse", "(n - 1/2) T", time_s(b, s.pulses.pulse_ticks), "s"},
           {"I_pulse", "U/R (1 - exp(-R t/2 L_S))", s.current_A, "A"},
-          {"I_max", "the same with L_least", s.greatest_A, "A"},
+          {"I_max", "U/R (1 - exp(-R t/2 L_least))", s.greatest_A, "A"},
           {"north", "(3/4) m k sqrt 3 I_0/sigma, 6 is certain", s.north, ""},
           {"axis", "(|L_D|/L_S) k sqrt 3 I_0/sigma", s.axis, ""},
           {"off", "(5/axis + 3 m^2/32 L_S/|L_D|)/2, or 5/north + m/10", s.off_deg, "deg"},
@@ -202,7 +202,7 @@ base::Result<PulseStart> pulse_start(const MotorModel& motor, const PulseSpec& s
   if (least_read_counts(b, ticks) < least_counts)
     return base::Problem{"current_range_A", base::rounded(spec.current_range_A, 4),
                          "is too wide to measure pulses of " + base::rounded(out.current_A, 3) + " A",
-                         "narrow the range, use a converter with more bits, or start by alignment"};
+                         "lower current_range_A, raise adc_bits, or set starts_by = alignment"};
   out.steps = steps_of(b, out);
   return out;
 }

@@ -17,12 +17,12 @@ constexpr double forgetting_lags = 5.0;  // exp(-5) of the bus is less than the 
 /// rails within half of the on-time.
 base::Problem too_slow(const SensorlessBasis& b) {
   const double needed_Hz = rail_lags / (base::pi * b.least_on_s());
-  return {
-      "terminal_bandwidth_Hz", base::rounded(b.spec.terminal_bandwidth_Hz, 4),
-      "lets the terminals reach their rails only after " + base::rounded(2e6 * b.settle_s(), 4) +
-          " us (7 time constants), longer than the least on-time of " +
-          base::rounded(1e6 * b.least_on_s(), 4) + " us",
-      "raise it to " + base::rounded(needed_Hz, 4) + " Hz, or raise lowest_part, the speed of the hand-over"};
+  return {"terminal_bandwidth_Hz", base::rounded(b.spec.terminal_bandwidth_Hz, 4),
+          "lets the terminals reach their rails only after " + base::rounded(2e6 * b.settle_s(), 4) +
+              " us (7 time constants), longer than the least on-time of " +
+              base::rounded(1e6 * b.least_on_s(), 4) + " us",
+          "raise this value to " + base::rounded(needed_Hz, 4) +
+              " Hz, or raise lowest_part, the speed of the hand-over"};
 }
 
 /// Problem of the comparators' low-pass. Without a low-pass, comparators switch at each edge of the pulse;
@@ -33,14 +33,15 @@ base::Problem badly_filtered(const SensorlessBasis& b) {
                             " Hz";  // still sufficient after rounding
   if (!(c.bandwidth_Hz > 0.0))
     return {"comparators.bandwidth_Hz", "",
-            "is missing: comparators without a low-pass switch at each edge of the pulse",
-            "set it to " + least};
+            "is missing: comparators without a low-pass switch at each PWM edge",
+            "set comparators.bandwidth_Hz to " + least};
   return {"comparators.bandwidth_Hz", base::rounded(c.bandwidth_Hz, 4),
           c.against_half_bus
               ? "is too low: the low-pass does not settle within half of the least on-time"
               : "is too low: at no-load speed the low-pass still shows the freewheel at the crossing",
-          c.against_half_bus ? "raise it to " + least + ", or raise lowest_part, the speed of the hand-over"
-                             : "raise it to " + least};
+          c.against_half_bus
+              ? "raise this value to " + least + ", or raise lowest_part, the speed of the hand-over"
+              : "raise this value to " + least};
 }
 
 base::Problem hidden_below(const SensorlessBasis& b) {
@@ -49,7 +50,7 @@ base::Problem hidden_below(const SensorlessBasis& b) {
                             " rad/s, more than half the no-load speed";
   if (comparators > b.threshold_V)
     return {"comparators", base::rounded(comparators, 4) + " V of error", hides,
-            "use comparators with less offset and hysteresis"};
+            "set a smaller comparators.offset_V and comparators.hysteresis_V"};
   return {"adc_noise_V", base::rounded(b.spec.adc_noise_V, 4), hides,
           "use a converter with more bits or less noise, or dividers with less mismatch"};
 }
@@ -99,10 +100,10 @@ base::Problems unusable(const MotorModel& motor, const SensorlessSpec& spec) {
         {"capture_Hz", base::rounded(spec.capture_Hz, 4), "must be above 0", "give the timer's frequency"});
   if (spec.adc_bits < 6 || spec.adc_bits > 16)
     problems.push_back(
-        {"adc_bits", std::to_string(spec.adc_bits), "must be 6 to 16", "choose another converter"});
+        {"adc_bits", std::to_string(spec.adc_bits), "must be 6 to 16", "set adc_bits to 6 to 16"});
   if (!(motor.shaft.J_kg_m2 > 0.0) || !(motor.K_t_Nm_A > 0.0) || !(motor.machine.R_ohm > 0.0))
-    problems.push_back(
-        {"motor", "", "must have resistance, torque constant and inertia", "give them in the motor's file"});
+    problems.push_back({"motor", "", "must have resistance, torque constant and inertia",
+                        "give resistance_ohm, torque_constant_mNm_A and inertia_gcm2 in the motor file"});
   return problems;
 }
 
@@ -131,9 +132,10 @@ SensorlessBasis sensorless_basis(const MotorModel& motor, const SensorlessSpec& 
 base::Problems out_of_reach(const SensorlessBasis& b) {
   const SensorlessSpec& spec = b.spec;
   if (!(b.ramp_rad_s2() > 0.0))
-    return {{"greatest_load", base::rounded(spec.greatest_load, 4),
-             "is more load than the starting current of " + base::rounded(b.start_A, 4) + " A can accelerate",
-             "raise overload, or lower greatest_load"}};
+    return {
+        {"greatest_load", base::rounded(spec.greatest_load, 4),
+         "is a larger load than the starting current of " + base::rounded(b.start_A, 4) + " A can accelerate",
+         "raise overload, or lower greatest_load"}};
   if (b.lowest_rad_s > 0.5 * b.no_load_rad_s) return {hidden_below(b)};
   if (spec.comparators.followed &&
       !(b.comparator_lag_s > 0.0 && b.comparator_lag_s <= b.longest_comparator_lag_s()))

@@ -30,15 +30,17 @@ double own_shape(const plant::Machine& machine, double deg) {
 base::Problems problems_of(const MotorModel& motor, const SensorlessSpec& spec) {
   base::Problems problems;
   if (spec.seen != control::NeutralSeen::on_time)
-    problems.push_back({"seen", "freewheel",
-                        "samples terminals that a diode may clamp, which an observer cannot use",
-                        "sample in the on-time, or follow the crossings"});
+    problems.push_back(
+        {"seen", "freewheel", "samples terminals that a diode may clamp, which an observer cannot use",
+         "set seen to the on-time, or follow the terminals' zero crossings instead of an observer"});
   if (spec.adc_bits > 14)
-    problems.push_back({"adc_bits", std::to_string(spec.adc_bits), "must be at most 14 for an observer",
-                        "use at most 14 bits, or follow the crossings"});
+    problems.push_back(
+        {"adc_bits", std::to_string(spec.adc_bits), "must be at most 14 for an observer",
+         "set adc_bits to 14 or less, or follow the terminals' zero crossings instead of an observer"});
   if (!(motor.machine.L_H > 0.0))
-    problems.push_back({"motor.L_H", base::rounded(motor.machine.L_H, 4), "must be above 0",
-                        "give the inductance in the motor's file, or follow the crossings"});
+    problems.push_back(
+        {"motor.L_H", base::rounded(motor.machine.L_H, 4), "must be above 0",
+         "give inductance_mH in the motor's file, or follow the terminals' zero crossings instead of an observer"});
   return problems;
 }
 

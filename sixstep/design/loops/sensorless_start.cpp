@@ -125,19 +125,24 @@ std::vector<DerivationStep> steps_of(const SensorlessBasis& b, const SensorlessS
       {"w_high", least_sector(b), s.highest_rad_s, "rad/s"},
       {"I_start", "overload I_N, at most 0.8 U/R_tt", b.start_A, "A"},
       {"T_swing", "2 pi sqrt(J/(p K_t I_start))", b.swing_s(), "s"},
-      {"T_load", "greatest_load K_t I_N + T_c, at rest the static torque where larger", b.load_Nm, "N m"},
+      {"T_load", "greatest_load K_t I_N + T_c; at rest T_c or the static friction torque, the larger one",
+       b.load_Nm, "N m"},
       {"a", "(K_t I_start - T_load)/(2 J)", b.ramp_rad_s2(), "rad/s^2"},
-      {"I_ramp", "(J a + T_c + B w_low)/K_t, where the speed loop goes on", b.ramp_A(), "A"},
-      {"d'", "I_N K_t^2/(J U); with 2 U instead of U unless soft", s.duty_per_period / b.spec.period_s,
-       "1/s"}};
+      {"I_ramp", "(J a + T_c + B w_low)/K_t, the current with which the speed loop begins", b.ramp_A(), "A"},
+      {"d'", "I_N K_t^2/(J U) with soft chopping, half of it with other chopping",
+       s.duty_per_period / b.spec.period_s, "1/s"}};
   if (b.lag_s > 0.0) {
-    steps.push_back({"tau", "1/(2 pi bandwidth), subtracted from the commutation's delay", b.lag_s, "s"});
+    steps.push_back(
+        {"tau",
+         "1/(2 pi bandwidth of the terminals' filter), subtracted from the commutation's delay unless comparators are followed",
+         b.lag_s, "s"});
     steps.push_back({"t_rail", "3.5 tau, from an edge to the rail", b.settle_s(), "s"});
   }
   if (b.spec.comparators.followed) {
     steps.push_back({"y_c", "offset and half the hysteresis, added to y_0", b.comparators_V(), "V"});
     steps.push_back(
-        {"tau_c", "1/(2 pi bandwidth), subtracted from the commutation's delay", b.comparator_lag_s, "s"});
+        {"tau_c", "1/(2 pi bandwidth of the comparators' low-pass), subtracted from the commutation's delay",
+         b.comparator_lag_s, "s"});
   }
   return steps;
 }

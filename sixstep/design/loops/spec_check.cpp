@@ -43,7 +43,7 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
     add("voltage_V", "", "is missing, and the sheet prints no nominal voltage",
         "give the bus voltage in volts");
   using base::above;
-  hold("bandwidth_rad_s", w.bandwidth_rad_s, above(0), "rad/s", "give it in rad/s");
+  hold("bandwidth_rad_s", w.bandwidth_rad_s, above(0), "rad/s", "give this value in rad/s");
   hold("voltage_V", w.voltage_V, above(0), "V", "give the bus voltage in volts");
   hold("period_s", w.period_s, {0, 1, false, true}, "s", "give the control period in seconds");
   hold("settle_s", w.settle_s, above(0), "s", "give the settling time in seconds");
@@ -51,14 +51,14 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
   hold("damping", w.damping, {0, 1, false, true}, "", "give a damping up to 1; the thesis uses 0.9");
   hold("current_damping", w.current_damping, {0, 1, false, true}, "",
        "give a damping up to 1; the thesis uses 0.9");
-  hold("torque_limit_Nm", w.torque_limit_Nm, above(0), "N m", "give it in N m");
-  hold("lowest_speed_rad_s", w.lowest_speed_rad_s, above(0), "rad/s", "give it in rad/s");
+  hold("torque_limit_Nm", w.torque_limit_Nm, above(0), "N m", "give this value in N m");
+  hold("lowest_speed_rad_s", w.lowest_speed_rad_s, above(0), "rad/s", "give this value in rad/s");
   const double bus_V = w.voltage_V.value_or(motor.nominal_voltage_V);
   if (const double top = bus_V / motor.K_t_Nm_A;
       w.lowest_speed_rad_s && *w.lowest_speed_rad_s >= top && top > 0.0)
     found.push_back({"lowest_speed_rad_s", base::written(*w.lowest_speed_rad_s),
                      "is above the no-load speed of the bus, " + base::three_digits(top) + " rad/s",
-                     "lower it, or give a higher voltage_V"});
+                     "lower this value, or give a higher voltage_V"});
   else if (const double most = most_lowest_speed_rad_s(motor, w); w.mode == Mode::speed && w.rotor.lags() &&
                                                                   w.lowest_speed_rad_s && most > 0.0 &&
                                                                   *w.lowest_speed_rad_s > most)
@@ -66,15 +66,15 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
         {"lowest_speed_rad_s", base::written(*w.lowest_speed_rad_s),
          "is too high for the test, a step down to it from 1.2 times this speed: on this bus at most " +
              base::three_digits(most) + " rad/s",
-         "lower it, or give a higher voltage_V"});
+         "lower this value, or give a higher voltage_V"});
   if (w.rotor.edges < 0 || w.rotor.edges > 6)
     add("edges", std::to_string(w.rotor.edges), "must lie in 1 to 6",
-        "give 1 to 6, or leave it out for an adaptive number");
+        "give 1 to 6, or leave this option out for an adaptive number");
   const bool encoder = w.rotor.shaft.kind == ShaftSensorKind::encoder;
   const double capture_Hz = encoder ? w.rotor.shaft.capture_Hz : w.rotor.capture_Hz;
   if (encoder || capture_Hz != 0.0)
     hold("capture_Hz", capture_Hz, base::between(1, 1e9), "Hz", "give the timer's clock in Hz");
-  hold("load_inertia_kg_m2", w.load_inertia_kg_m2, base::from(0), "kg m2", "give it in kg m2");
+  hold("load_inertia_kg_m2", w.load_inertia_kg_m2, base::from(0), "kg m2", "give this value in kg m2");
   return found;
 }
 

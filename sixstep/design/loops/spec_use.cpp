@@ -24,7 +24,7 @@ struct Idle {
   const char *limit, *cure;
 };
 
-constexpr const char* with_speed = "add mode = speed or mode = position, or leave it out";
+constexpr const char* with_speed = "add mode = speed or mode = position, or leave this option out";
 constexpr const char* one_of_two = "keep one of the two";
 
 /// Reasons why a member of a spec has no effect. If several rows of a member apply, the first is reported.
@@ -33,23 +33,24 @@ constexpr Idle idles[] = {
      "applies to a current loop inside a speed loop, and mode = current has no speed loop",
      "give settle_s, or add mode = speed or mode = position"},
     {"current_settle_s", by_bandwidth, "repeats bandwidth_rad_s", one_of_two},
-    {"torque_limit_Nm", current_alone, "applies to a speed loop only, and mode = current has none",
+    {"torque_limit_Nm", current_alone, "applies only to a speed loop, which mode = current does not have",
      with_speed},
-    {"lowest_speed_rad_s", current_alone, "applies to a speed loop only, and mode = current has none",
+    {"lowest_speed_rad_s", current_alone, "applies only to a speed loop, which mode = current does not have",
      with_speed},
     {"lowest_speed_rad_s", never_late,
-     "determines the longest delay of a speed sensor, and an ideal sensor has none",
-     "use rotor = hall or another sensor, or leave it out"},
+     "determines the longest delay of a speed sensor, and an ideal sensor has no delay",
+     "use rotor = hall or another sensor, or leave this option out"},
     {"load_inertia_kg_m2", current_alone, "has no effect, because mode = current holds the rotor",
      with_speed},
-    {"edges", current_alone, "applies to a speed loop only, and mode = current has none", with_speed},
+    {"edges", current_alone, "applies only to a speed loop, which mode = current does not have", with_speed},
     {"edges", no_probes, "applies to Hall probes only, and rotor is not hall",
-     "use rotor = hall, or leave it out"},
-    {"capture_Hz", current_alone, "applies to a speed loop only, and mode = current has none", with_speed},
-    {"capture_Hz", no_edges, "applies to a timer that captures edges, and this rotor sensor has none",
-     "use rotor = hall or rotor = encoder, or leave it out"},
+     "use rotor = hall, or leave this option out"},
+    {"capture_Hz", current_alone, "applies only to a speed loop, which mode = current does not have",
+     with_speed},
+    {"capture_Hz", no_edges, "applies to a timer that captures edges, which this rotor sensor does not have",
+     "use rotor = hall or rotor = encoder, or leave this option out"},
     {"damping", cancels_alone, "applies to pole placement only, and method is cancellation",
-     "use method = pole-placement, or leave it out"},
+     "use method = pole-placement, or leave this option out"},
     {"settle_s", by_bandwidth_alone, "repeats bandwidth_rad_s", one_of_two},
     {"settle_s", symmetrical,
      "applies to pole placement only; the symmetrical optimum is as fast as the current loop allows",

@@ -23,7 +23,7 @@ base::Problems mistakes(const TrackingSpec& spec) {
     problems.push_back(
         {"bandwidth_rad_s", base::written(spec.bandwidth_rad_s),
          "must be below half the sampling frequency, " + base::written(base::pi / spec.period_s),
-         "lower it, or sample more often"});
+         "lower this value, or sample more often"});
   return problems;
 }
 

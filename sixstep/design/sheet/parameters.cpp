@@ -37,7 +37,7 @@ void check_constants(SheetReader& reader, const MotorModel& m) {
       reader.problem(where, "",
                      std::string("makes ") + what + " " + rounded(value) + " " + std::string(unit) +
                          ", which " + limit_of(own, allowed, value),
-                     "check the units of the lines from which it is computed");
+                     "correct the units of the lines from which this value is computed");
   };
   hold(m.from.K_t.substr(0, m.from.K_t.find(',')), m.K_t_Nm_A, base::above(0), "Nm/A", "the torque constant");
   hold(reader.sheet.viscous_friction_Nm_s ? "viscous_friction_Nm_s" : "no_load_current_mA", m.shaft.B_Nm_s,
@@ -83,8 +83,7 @@ void check_pace(SheetReader& reader, const MotorModel& m) {
 base::Problem not_simulatable(const Sheet& sheet) {
   return {
       "simulatable", "false", "because " + sheet.not_simulatable_because,
-      "choose another motor, or give what is missing in [motor_override] together with simulatable = true "
-      "and not_simulatable_because = \"\""};
+      "choose another motor, or give the missing values in [motor_override] together with simulatable = true and not_simulatable_because = \"\""};
 }
 
 }  // namespace

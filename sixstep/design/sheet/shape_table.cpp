@@ -127,8 +127,8 @@ std::optional<ShapeFactors> read_shape_table(SheetReader& reader) {
   const auto [least, most] = std::minmax_element(value.begin(), value.end());
   const double range = *most - *least;
   if (!(range > 0.0)) {
-    reader.problem("back_emf_shape", base::written(value[0]), "is the same everywhere",
-                   "give the shape of one phase's back-EMF over an electrical turn");
+    reader.problem("back_emf_shape", base::written(value[0]), "has the same value at all angles",
+                   "give the back-EMF of one phase over an electrical turn");
     return {};
   }
   if (std::abs(mean) > most_shape_mean * range) {

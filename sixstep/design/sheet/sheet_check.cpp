@@ -91,7 +91,7 @@ class Lines final : public base::Visitor {
       if (reason.key == key) return std::string(reason.why);
     if (constants_.K_e_V_s)
       return "a second value of the torque constant, which the model reads from " + constants_.K_e_V_s->from;
-    return "the other values that this line needs are missing";
+    return "not used, because other values that this line needs are missing";
   }
   /// A no-load point determines the friction only if the point is complete and no other line contains the
   /// friction.
@@ -114,11 +114,13 @@ void judge_known(const Sheet& sheet, SheetCheck& check, base::Problems& problems
     if (relation == check.relations.end()) {
       std::string known;
       for (const Relation& r : check.relations) known += (known.empty() ? "" : ", ") + r.name;
-      problems.push_back({"known_deviation", "\"" + name + "\"", "names no relation of this sheet",
-                          known.empty() ? "remove it: no two values of this sheet can be compared"
+      problems.push_back({"known_deviation", "\"" + name + "\"",
+                          "is not the name of a relation of this sheet",
+                          known.empty() ? "remove this name: no two values of this sheet can be compared"
                                         : "name one of these: " + known});
     } else if (relation->verdict == RelationVerdict::holds) {
-      problems.push_back({"known_deviation", "\"" + name + "\"", "names a relation that holds", "remove it"});
+      problems.push_back(
+          {"known_deviation", "\"" + name + "\"", "names a relation that holds", "remove this name"});
     } else {
       relation->verdict = RelationVerdict::known;
     }
@@ -179,7 +181,8 @@ void doubt_maker(const Sheet& sheet, SheetCheck& check) {
                        [&](std::string_view start) { return line.key.starts_with(start); });
   });
   if (numbered != check.lines.end())
-    check.doubts.push_back({numbered->key, "", "is a numbered line of maxon's sheets, which fixes its frame",
+    check.doubts.push_back({numbered->key, "",
+                            "is a numbered line of maxon's sheets, which determines the value's frame",
                             "give maker = \"maxon\", or write keys without numbers, with their frames"});
 }
 

@@ -70,8 +70,8 @@ void read_axes(SheetReader& reader) {
   const std::optional<Quantity>&d = reader.sheet.d_axis_inductance_mH, &q = reader.sheet.q_axis_inductance_mH;
   if (!d || !q)
     return reader.wrong(d ? "d_axis_inductance_mH" : "q_axis_inductance_mH", d ? *d : *q,
-                        std::string("needs ") + (d ? "q" : "d") + "_axis_inductance_mH beside it",
-                        "give both, or inductance_mH alone");
+                        std::string("needs ") + (d ? "q" : "d") + "_axis_inductance_mH as well",
+                        "give both axis inductances, or only inductance_mH");
   const std::optional<double> L_d = SheetReader::positive(*d, -3), L_q = SheetReader::positive(*q, -3);
   if (!L_d || !L_q) return;
   if (*L_d != *L_q) {
@@ -88,13 +88,12 @@ void read_inductance(SheetReader& reader) {
   const std::optional<Quantity>& q = s.inductance_mH;
   if (q && (s.d_axis_inductance_mH || s.q_axis_inductance_mH))
     return reader.wrong("inductance_mH", *q, "is given twice: L_d and L_q are also given",
-                        "keep one of the two ways");
+                        "remove inductance_mH, or both axis inductances");
   if (s.d_axis_inductance_mH || s.q_axis_inductance_mH) return read_axes(reader);
   if (!q)
     return reader.missing(
         "inductance_mH",
-        "give the winding's inductance with its frame; where the sheet has none, measure it "
-        "between two terminals with an LCR meter at 1 kHz");
+        "give the winding's inductance with its frame; if the sheet gives no inductance, measure the inductance between two terminals with an LCR meter at 1 kHz");
   const std::optional<double> L = SheetReader::positive(*q, -3);
   if (!L) return;
   if (q->frame == "terminal" || q->frame == "phase") {
@@ -157,7 +156,8 @@ void read_trust(SheetReader& reader) {
     reader.problem("simulatable", "false", "gives no reason", "give the reason in not_simulatable_because");
   if (s.simulatable && !s.not_simulatable_because.empty())
     reader.problem("not_simulatable_because", "\"" + s.not_simulatable_because + "\"",
-                   "contradicts simulatable = true", "write simulatable = false, or leave the reason out");
+                   "contradicts simulatable = true",
+                   "write simulatable = false, or remove not_simulatable_because");
 }
 
 }  // namespace
@@ -184,7 +184,7 @@ SheetConstants sheet_constants(const Sheet& sheet) {
   out.pole_pairs = read_pole_pairs(reader);
   const bool turns = sheet.kind == MotorKind::rotary;
   if (turns && !out.pole_pairs && out.problems.size() == told)
-    reader.missing("pole_pairs", "give it, or poles, or the winding's code as \"12N14P\"");
+    reader.missing("pole_pairs", "give pole_pairs, poles or the winding's code as \"12N14P\"");
   read_details(reader);
   if (sheet.nominal_voltage_V) out.nominal_voltage_V = SheetReader::positive(*sheet.nominal_voltage_V);
   read_resistance(reader);

@@ -11,11 +11,13 @@ void describe_words(base::Visitor& v, Sheet& s) {
   v.value("maker", s.maker, {.meaning = "maker of the motor"});
   v.value("notes", s.notes, {.meaning = "notes on the values"});
   v.value("simulatable", s.simulatable,
-          {.meaning = "whether the values are complete and reliable enough for a model"});
+          {.meaning = "whether the values of this file are complete and reliable enough for a model"});
   v.value("not_simulatable_because", s.not_simulatable_because,
-          {.meaning = "missing or doubtful values, where simulatable = false"});
-  v.value("known_deviation", s.known_deviation,
-          {.meaning = "relations between values that this sheet is known to break"});
+          {.meaning = "reason for simulatable = false: the missing or doubtful values"});
+  v.value(
+      "known_deviation", s.known_deviation,
+      {.meaning =
+           "names of the relations between values that this sheet breaks although the file has the maker's values"});
 }
 
 void describe_torque_constant(base::Visitor& v, Sheet& s) {
@@ -90,11 +92,12 @@ void describe_mechanics(base::Visitor& v, Sheet& s) {
           {.meaning = "whether the motor carries the holding brake, so that inertia_with_brake_gcm2 counts"});
   v.choice("rotor", s.rotor, rotor_choices,
            {.meaning = "rotating part, for an inertia from its dimensions: J = pi/2 rho l (r^4 - r_i^4)"});
-  v.quantity("rotor_radius_mm", s.rotor_radius_mm,
-             {.meaning = "outer radius r of the rotating part; with rotor_length_mm it gives the inertia "
-                         "if none is printed",
-              .unit = "mm",
-              .range = base::above(0)});
+  v.quantity(
+      "rotor_radius_mm", s.rotor_radius_mm,
+      {.meaning =
+           "outer radius r of the rotating part; with rotor_length_mm it determines the inertia if the sheet prints no inertia",
+       .unit = "mm",
+       .range = base::above(0)});
   v.quantity("rotor_inner_radius_mm", s.rotor_inner_radius_mm,
              {.meaning = "inner radius r_i of the rotating part: of an outer rotor or a hollow inner rotor",
               .unit = "mm",
@@ -107,12 +110,12 @@ void describe_mechanics(base::Visitor& v, Sheet& s) {
               .unit = "kg/m3",
               .range = base::above(0)});
   v.quantity("viscous_friction_Nm_s", s.viscous_friction_Nm_s,
-             {.meaning = "friction torque per rad/s. Default: the whole no-load loss is viscous",
+             {.meaning = "viscous friction: torque per rad/s. Default: the whole no-load loss is viscous",
               .unit = "N m s",
               .range = base::from(0),
               .also = spellings::viscous});
   v.quantity("coulomb_friction_mNm", s.coulomb_friction_mNm,
-             {.meaning = "friction torque that does not depend on speed",
+             {.meaning = "Coulomb friction: torque that does not depend on speed",
               .unit = "mNm",
               .range = base::from(0),
               .also = spellings::coulomb});
@@ -146,15 +149,14 @@ void describe_no_load(base::Visitor& v, Sheet& s) {
               .range = base::above(0),
               .also = spellings::no_load_speed});
   v.quantity("no_load_current_mA", s.no_load_current_mA,
-             {.meaning = "current drawn without load, at the same voltage",
+             {.meaning = "current without load, at the same voltage as no_load_speed_rpm",
               .unit = "mA",
               .frame = "terminal",
               .range = base::from(0),
               .also = spellings::no_load_current});
   v.quantity(
       "second_no_load_voltage_V", s.second_no_load_voltage_V,
-      {.meaning =
-           "voltage of a second no-load point, which splits friction into its viscous and its Coulomb part",
+      {.meaning = "voltage of a second no-load point; the two points separate viscous from Coulomb friction",
        .unit = "V",
        .frame = "terminal",
        .range = base::above(0)});
@@ -207,17 +209,19 @@ void describe_ratings(base::Visitor& v, Sheet& s) {
               .range = {0, 100, false, false},
               .also = spellings::max_efficiency});
   v.quantity("speed_torque_gradient_rpm_mNm", s.speed_torque_gradient_rpm_mNm,
-             {.meaning = "speed lost per torque at constant voltage",
+             {.meaning = "speed lost per torque at constant voltage, the slope of the speed-torque line",
               .unit = "rpm/mNm",
               .range = base::above(0),
               .also = spellings::speed_torque_gradient});
   v.quantity("mechanical_time_constant_ms", s.mechanical_time_constant_ms,
-             {.meaning = "time constant of the run-up at constant voltage",
+             {.meaning = "mechanical time constant: time constant of the run-up at constant voltage",
               .unit = "ms",
               .range = base::above(0),
               .also = spellings::mechanical_time_constant});
   v.quantity("electrical_time_constant_ms", s.electrical_time_constant_ms,
-             {.meaning = "time constant of the winding, L/R", .unit = "ms", .range = base::above(0)});
+             {.meaning = "electrical time constant: time constant of the winding, L/R",
+              .unit = "ms",
+              .range = base::above(0)});
   v.quantity("max_speed_rpm", s.max_speed_rpm,
              {.meaning = "highest speed that the mechanics allow",
               .unit = "rpm",
@@ -247,15 +251,16 @@ void describe_thermal(base::Visitor& v, Sheet& s) {
               .range = base::above(0),
               .also = spellings::motor_time});
   v.quantity("max_winding_temperature_degC", s.max_winding_temperature_degC,
-             {.meaning = "greatest temperature of the winding",
+             {.meaning = "highest permissible temperature of the winding",
               .unit = "degC",
               .range = base::above(0),
               .also = spellings::winding_temperature});
-  v.value("magnet_loss_percent_K", s.magnet_loss_percent_K,
-          {.meaning =
-               "back-EMF that the magnets lose per kelvin above 25 degC: NdFeB 0.12, SmCo 0.04, ferrite 0.2",
-           .unit = "percent/K",
-           .range = base::between(0, 1)});
+  v.value(
+      "magnet_loss_percent_K", s.magnet_loss_percent_K,
+      {.meaning =
+           "part of the back-EMF lost per kelvin of the magnets above 25 degC: NdFeB 0.12, SmCo 0.04, ferrite 0.2",
+       .unit = "percent/K",
+       .range = base::between(0, 1)});
 }
 
 void describe(base::Visitor& v, Sheet& s) {

@@ -60,7 +60,8 @@ void read_deviations(SheetReader& reader) {
                      "needs one for each of the phases a, b, c",
                      std::string("write ") + key + " = [0.05, -0.03, 0]");
     if (s.connection == WindingConnection::delta)
-      reader.problem(key, "", "applies to a star's phases only, and connection is \"delta\"", "remove it");
+      reader.problem(key, "", "applies to a star's phases only, and connection is \"delta\"",
+                     "remove this key");
   };
   look("phase_resistance_deviation", s.phase_resistance_deviation);
   look("phase_back_emf_deviation", s.phase_back_emf_deviation);
@@ -70,8 +71,10 @@ void read_delta(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   if (s.connection == WindingConnection::star) {
     if (s.mutual_inductance_mH != 0)
-      reader.problem("mutual_inductance_mH", base::written(s.mutual_inductance_mH),
-                     "applies to a delta's branches only; a star's inductance_mH includes it", "remove it");
+      reader.problem(
+          "mutual_inductance_mH", base::written(s.mutual_inductance_mH),
+          "applies to a delta's branches only; inductance_mH of a star includes the mutual inductance",
+          "remove this key");
     return;
   }
   const auto look = [&](const char* key, const std::optional<base::Quantity>& q, const char* cure) {
@@ -79,8 +82,7 @@ void read_delta(SheetReader& reader) {
       reader.wrong(key, *q, "is given for a phase, and a delta needs the value between two terminals", cure);
   };
   constexpr const char* winding_cure =
-      "write frame = \"terminal\". If a drive identified the value (VESC, ODrive), write twice the value; "
-      "if it is of one branch of the delta, write 2/3 of it";
+      "write frame = \"terminal\". If a drive identified the value (VESC, ODrive), write twice the value; if the value is of one branch of the delta, write 2/3 of the value";
   look("resistance_ohm", s.resistance_ohm, winding_cure);
   look("inductance_mH", s.inductance_mH, winding_cure);
   look("back_emf_mV_s", s.back_emf_mV_s,
@@ -91,7 +93,7 @@ void read_delta(SheetReader& reader) {
                    "give inductance_mH between two terminals");
   if (s.saturation_current_A)
     reader.wrong("saturation_current_A", *s.saturation_current_A,
-                 "applies to a star's phases only, and connection is \"delta\"", "remove it");
+                 "applies to a star's phases only, and connection is \"delta\"", "remove this key");
 }
 
 void read_cogging(SheetReader& reader, std::optional<int> pole_pairs) {
@@ -104,7 +106,7 @@ void read_cogging(SheetReader& reader, std::optional<int> pole_pairs) {
   if (!s.cogging_phase_deg.empty() && s.cogging_phase_deg.size() != s.cogging_orders.size())
     reader.problem("cogging_phase_deg", std::to_string(s.cogging_phase_deg.size()) + " values",
                    "needs one for each of the " + count + " cogging_orders",
-                   "give one phase for each order, or remove it: the default is 0");
+                   "give one phase for each order, or remove this key: the default is 0");
   if (s.cogging_orders.size() > most_cogging)
     reader.problem("cogging_orders", count + " values", "must be at most " + std::to_string(most_cogging),
                    "keep the largest");

@@ -44,7 +44,7 @@ void read_split(SheetReader& reader, const Point& first) {
   Friction& f = reader.out.friction;
   if (second->speed_rad_s == first.speed_rad_s)
     return reader.problem("second_no_load_speed_rpm", "", "is equal to the speed of the first no-load point",
-                          "give a point at another voltage, or leave it out");
+                          "give a point at another voltage, or remove the keys of the second point");
   const double B = (second->loss_Nm - first.loss_Nm) / (second->speed_rad_s - first.speed_rad_s);
   const double T_c = first.loss_Nm - B * first.speed_rad_s;
   if (B < 0.0 || T_c < 0.0)
@@ -77,7 +77,7 @@ void check_iron(SheetReader& reader) {
     if (part <= sum * (1 + 1e-12)) return;
     reader.problem(key, base::written(part),
                    "exceeds the friction that the no-load points leave for it, " + rounded(sum) + " " + unit,
-                   "lower it, or give viscous_friction_Nm_s of the bearings");
+                   "lower this value, or give viscous_friction_Nm_s of the bearings");
   };
   beyond("iron_coulomb_mNm", f.iron.coulomb_Nm * 1e3, f.coulomb_Nm * 1e3, "mNm");
   beyond("iron_viscous_Nm_s", f.iron.B_Nm_s, f.B_Nm_s, "Nm s");
@@ -101,7 +101,7 @@ void take_from_points(SheetReader& reader, const Point& point) {
         s.coulomb_friction_mNm ? "coulomb_friction_mNm" : "iron_coulomb_mNm",
         base::six_digits(f.coulomb_Nm * 1e3),
         "exceeds the loss at no load, K_t I_0 = " + base::six_digits(point.loss_Nm * 1e3) + " mNm",
-        "lower it, or give viscous_friction_Nm_s");
+        "lower this value, or give viscous_friction_Nm_s");
   if (point.loss_Nm > 0.0) f.B_Nm_s = (point.loss_Nm - f.coulomb_Nm) / point.speed_rad_s;
   f.from = point.printed_speed ? "the no-load point, B = (K_t I_0 - T_c)/w_0"
                                : "the no-load current, B = (K_t I_0 - T_c)/w_0 with w_0 = (U - R I_0)/K_t";

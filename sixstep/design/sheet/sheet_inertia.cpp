@@ -18,7 +18,7 @@ std::optional<Constant> printed_inertia(SheetReader& reader) {
   if (braked) J_b = SheetReader::positive(*braked, -7);
   if (J && J_b && *J_b < *J)
     reader.wrong("inertia_with_brake_gcm2", *braked,
-                 "is less than the rotor's own, " + SheetReader::key_of("inertia_gcm2", *rotor) + " = " +
+                 "is less than the rotor's inertia, " + SheetReader::key_of("inertia_gcm2", *rotor) + " = " +
                      reader.value_of("inertia_gcm2", *rotor),
                  "swap the two values: a brake adds inertia");
   if (s.with_brake ? !J_b : !J) return {};

@@ -184,7 +184,7 @@ class Relations {
       r.remark =
           "neither a warm winding nor commutation explains the deviation: the motor's drive limits the speed, or a value of the nominal point is wrong";
     } else if (r.remark.empty()) {
-      r.remark = "the nominal point lies above the line that R and k_M give";
+      r.remark = "the nominal point lies above the ideal line, U/k_M - R/k_M^2 M";
     }
   }
 
@@ -195,7 +195,7 @@ class Relations {
     const double part =
         commutation_part(c_, (torque_Nm / K_t_->value + (idle_ ? idle_->value : 0.0)) / edge_current);
     if (!(part > worth_it)) return "";
-    return "the line is ideal: in the model commutation lowers the speed by about " +
+    return "the computed speed is that of the ideal line: in the model commutation lowers the speed by about " +
            rounded(100.0 * part / (1.0 + part), 2) +
            " %; the torque-speed curve has the speed that the model reaches";
   }
@@ -206,7 +206,7 @@ class Relations {
     r.verdict = RelationVerdict::broken;
     r.highest = most_above;
     r.lowest = 0.0;
-    r.remark = "a loaded motor turns slower than without load";
+    r.remark = "a loaded motor turns more slowly than a motor without load";
   }
 
   void nominal() {
@@ -228,7 +228,8 @@ class Relations {
       Relation& r = add("nominal torque", rms ? "K_rms I_N" : "k_M I_N", "nominal torque", computed, *torque,
                         "mNm", 0.0, friction);
       if (r.verdict == RelationVerdict::broken && r.deviation < 0.0 && r.remark.empty())
-        r.remark = "the nominal torque is above the torque of the nominal current; the model does not use it";
+        r.remark =
+            "the nominal torque is above the torque of the nominal current; the model does not use the nominal torque";
     }
     if (const std::optional<Term> printed = term(s_.max_efficiency_percent);
         printed && idle_ && stall_ && idle_->value < stall_->value) {

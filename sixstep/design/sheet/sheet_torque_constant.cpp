@@ -152,7 +152,7 @@ void read_geometry(SheetReader& reader, std::vector<Read>& reads) {
     return reader.problem(
         "turns_in_series", std::to_string(*s.turns_in_series),
         *s.turns_in_series < 1 ? "must be at least 1" : "must be at most " + std::to_string(most_turns),
-        "count the turns between two terminals");
+        "give turns_in_series, the turns between two terminals");
   reads.push_back({"flux_density_T", by_K_t(product * *s.turns_in_series, reader.out.shape), doubt,
                    "K_t = 2 B l r N of the geometry"});
 }
@@ -182,10 +182,10 @@ void read_torque_constant(SheetReader& reader) {
   std::vector<Read> reads = read_all(reader);
   if (reads.empty()) {
     if (reader.out.problems.size() == told)
-      reader.missing("torque_constant_mNm_A",
-                     "give it (torque per ampere through the driven pair), or the constant that the sheet "
-                     "prints instead: torque_constant_Nm_A, back_emf_constant_V_krpm, flux_linkage_mWb, "
-                     "speed_constant_rpm_V (KV) or back_emf_mV_s (a phase's peak)");
+      reader.missing(
+          "torque_constant_mNm_A",
+          "give torque_constant_mNm_A (torque per ampere through the driven pair), or the constant that the sheet prints instead: torque_constant_Nm_A, back_emf_constant_V_krpm, flux_linkage_mWb, "
+          "speed_constant_rpm_V (KV) or back_emf_mV_s (a phase's peak)");
     return;
   }
   const Read& first = reads.front();
@@ -199,7 +199,7 @@ void read_torque_constant(SheetReader& reader) {
     if (std::abs(c.K_e_V_s - implied) > 1e-6 * implied)
       reader.wrong("back_emf_mV_s", *reader.sheet.back_emf_mV_s,
                    "contradicts torque_constant_mNm_A, which means " + base::six_digits(implied * 1e3),
-                   "keep one of the two");
+                   "remove one of the two keys");
     reader.use("back_emf_mV_s");
     used = 2;
   }

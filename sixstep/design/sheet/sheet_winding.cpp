@@ -78,7 +78,7 @@ void compare(SheetReader& reader, int pole_pairs, int other, const std::string& 
   else
     reader.problem("pole_pairs", std::to_string(pole_pairs),
                    "contradicts " + other_line + ", which has " + pairs + " pole pairs",
-                   "correct the wrong one of the two");
+                   "correct the key that is wrong");
 }
 
 }  // namespace
@@ -121,7 +121,7 @@ std::optional<int> read_pole_pairs(SheetReader& reader) {
   if (by_winding && by_poles && *by_winding != *by_poles)
     reader.problem("poles", std::to_string(*s.poles),
                    "contradicts " + winding + ", which has " + std::to_string(2 * *by_winding) + " poles",
-                   "correct the wrong one of the two");
+                   "correct the key that is wrong");
   const std::optional<int> other = by_winding ? by_winding : by_poles;
   if (other && *other > most_pole_pairs) {
     reader.problem(

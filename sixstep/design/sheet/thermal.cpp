@@ -54,7 +54,7 @@ std::optional<base::Problem> lost_magnets(const std::string& where, const Sheet&
   return base::Problem{where, base::written(housing_degC),
                        "leaves the magnets at most a tenth of their flux, by magnet_loss_percent_K = " +
                            base::written(s.magnet_loss_percent_K),
-                       "check the temperature and magnet_loss_percent_K"};
+                       "lower the temperature, or correct magnet_loss_percent_K in the motor file"};
 }
 
 base::Result<ThermalModel> thermal_model(const Sheet& s) {
@@ -74,12 +74,12 @@ base::Result<ThermalModel> thermal_model(const Sheet& s) {
   take(s.thermal_time_constant_motor_s, "thermal_time_constant_motor_s", m.motor_s);
   take(s.max_winding_temperature_degC, "max_winding_temperature_degC", m.max_winding_degC);
   if (!missing.empty())
-    return base::Problem{missing, "", "must be known for a continuous and short-time region",
+    return base::Problem{missing, "", "must be in the motor file for a continuous and short-time region",
                          "add the sheet's thermal lines to the motor file"};
   for (const double* value : {&m.winding_housing_K_W, &m.housing_ambient_K_W, &m.winding_s, &m.motor_s})
     if (!base::above(0).holds(*value))
       return base::Problem{"thermal resistances and time constants", "", "must be above 0",
-                           "check the sheet's thermal lines"};
+                           "correct the thermal lines in the motor file"};
   return m;
 }
 

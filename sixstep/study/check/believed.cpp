@@ -22,7 +22,8 @@ void check_one_torque_constant(const Believed& b, base::Problems& out) {
     if (!given) continue;
     if (!first.empty())
       out.push_back({std::string("believed.") + key, "",
-                     "gives the torque constant a second time, after believed." + first, "keep one of them"});
+                     "gives the torque constant a second time, after believed." + first,
+                     "keep one of the two keys"});
     first = key;
   }
 }
@@ -31,10 +32,11 @@ void check_inductances(const Believed& b, base::Problems& out) {
   if (b.inductance_mH && (b.d_axis_inductance_mH || b.q_axis_inductance_mH))
     out.push_back({"believed.inductance_mH", "",
                    "contradicts d_axis_inductance_mH and q_axis_inductance_mH: the inductance is given twice",
-                   "keep one of the two"});
+                   "remove believed.inductance_mH, or both axis inductances"});
   else if (b.d_axis_inductance_mH.has_value() != b.q_axis_inductance_mH.has_value())
     out.push_back({b.d_axis_inductance_mH ? "believed.q_axis_inductance_mH" : "believed.d_axis_inductance_mH",
-                   "", "is missing beside the other axis", "give both axes, or believed.inductance_mH"});
+                   "", "is missing, and the other axis's inductance is given",
+                   "give both axis inductances, or only believed.inductance_mH"});
 }
 
 }  // namespace
@@ -45,7 +47,7 @@ void check_believed(const Scenario& s, base::Problems& out) {
   const std::size_t before = out.size();
   if (b.pole_pairs && s.sheet.kind == design::MotorKind::linear)
     out.push_back({"believed.pole_pairs", std::to_string(*b.pole_pairs),
-                   "are values of a rotary motor, and this motor is linear", "remove it"});
+                   "are values of a rotary motor, and this motor is linear", "remove this key"});
   check_one_torque_constant(b, out);
   check_inductances(b, out);
   if (out.size() > before) return;

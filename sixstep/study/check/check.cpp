@@ -51,17 +51,17 @@ void check_regeneration(const Scenario& s, base::Problems& out) {
   if (!(*r.limit_V > s.supply.voltage_V))
     out.push_back({"control.regeneration.limit_V", base::six_digits(*r.limit_V),
                    "must be above supply.voltage_V = " + base::six_digits(s.supply.voltage_V),
-                   "raise it: below the supply voltage the drive could never brake"});
+                   "raise this value: below the supply voltage the drive could never brake"});
   if (s.sensors.bus == BusSensing::adc && s.sensors.bus_range_V && !(*r.limit_V < bus_end_V(s.sensors)))
     out.push_back({"control.regeneration.limit_V", base::six_digits(*r.limit_V),
-                   "is never exceeded: the converter measures up to " +
+                   "can never be exceeded: the converter measures only up to " +
                        base::six_digits(bus_end_V(s.sensors)) +
                        ", by sensors.bus_range_V = " + base::six_digits(*s.sensors.bus_range_V),
-                   "lower it, or raise sensors.bus_range_V"});
+                   "lower this value, or raise sensors.bus_range_V"});
   if (!r.gain_A_per_V && !(s.supply.capacitance_F > 0))
     out.push_back({"control.regeneration.gain_A_per_V", "",
                    "is missing, and its default needs supply.capacitance_F",
-                   "give gain_A_per_V or supply.capacitance_F"});
+                   "give control.regeneration.gain_A_per_V, or supply.capacitance_F"});
 }
 
 /// Refuses limits of current or torque if the speed loop's output is a duty: without a current loop the drive
@@ -70,8 +70,8 @@ void check_speed_output(const Scenario& s, base::Problems& out) {
   const Control& c = s.control;
   if (c.speed.output != SpeedOutput::duty) return;
   const auto refuse = [&out](const char* key) {
-    out.push_back({key, "", "needs a current loop, and control.speed.output = \"duty\" has none",
-                   "remove it, or set control.speed.output = \"current\""});
+    out.push_back({key, "", "needs a current loop, which control.speed.output = \"duty\" does not have",
+                   "remove this key, or set control.speed.output = \"current\""});
   };
   if (c.current.type == CurrentLoopType::hysteresis) refuse("control.current.type");
   if (c.current.limit_A) refuse("control.current.limit_A");
@@ -88,8 +88,9 @@ void check_limited_mode(const Scenario& s, base::Problems& out) {
   if (c.mode != control::Mode::off && c.mode != control::Mode::duty) return;
   const auto refuse = [&out](const char* key, const std::optional<double>& value) {
     if (value)
-      out.push_back({key, base::six_digits(*value), "needs a current loop, and control.mode has none",
-                     "remove it, or set control.mode = \"current\", \"speed\" or \"position\""});
+      out.push_back({key, base::six_digits(*value),
+                     "needs a current loop, which this control.mode does not have",
+                     "remove this key, or set control.mode = \"current\", \"speed\" or \"position\""});
   };
   refuse("control.limits.current_A", c.limits.current_A);
   refuse("control.limits.torque_Nm", c.limits.torque_Nm);
@@ -121,11 +122,12 @@ void check_control(const Scenario& s, base::Problems& out) {
   const CurrentLoop& c = s.control.current;
   if (c.type == CurrentLoopType::hysteresis && c.comparator == Comparator::sampled &&
       c.on == HysteresisOn::phase)
-    out.push_back({"control.current.on", "\"phase\"", "needs comparators on the board",
+    out.push_back({"control.current.on", "\"phase\"",
+                   "needs a comparator in each driven phase, and comparator = \"sampled\" has none",
                    "set comparator = \"event\", or on = \"motor\""});
   if (c.type == CurrentLoopType::hysteresis && c.comparator == Comparator::event && s.pwm.delay_periods > 0)
     out.push_back({"pwm.delay_periods", std::to_string(s.pwm.delay_periods),
-                   "has no meaning for event comparators",
+                   "has no effect with comparator = \"event\", which acts at once",
                    "set delay_periods = 0, or comparator = \"sampled\""});
   if (c.type == CurrentLoopType::hysteresis && (gives_gains(c)))
     out.push_back({"control.current.type", "\"hysteresis\"", "has no PI gains",
@@ -140,7 +142,7 @@ void check_torque_limit(const Scenario& s, const design::MotorModel& motor, base
   if (asks_torque && !s.control.speed.torque_limit_Nm && !(motor.nominal_current_A > 0))
     out.push_back({"control.speed.torque_limit_Nm", "",
                    "is missing, and the motor's sheet names no nominal current",
-                   "give the torque limit of the drive"});
+                   "give control.speed.torque_limit_Nm, the drive's torque limit"});
 }
 
 /// Checks the controller's configuration after each event. Problems that exist from the start are not
@@ -184,7 +186,7 @@ void check_linear(const Scenario& s, base::Problems& out) {
   if (s.load.gear != 1)
     out.push_back({"load.gear", base::six_digits(s.load.gear),
                    "applies to a rotary motor only, and this motor is linear",
-                   "give the load as it acts on the motor's slide"});
+                   "give mass, force and friction of the load as they act on the motor's slide"});
 }
 
 base::Problems check(const Scenario& s, std::size_t known_events) {

@@ -60,16 +60,19 @@ void check_mode(const Event& e) {
   word += base::word(mode_choices, e.mode);
   word += '"';
   if (e.mode == e.before)
-    return e.say(".control.mode", word, "is already the mode at this time", "remove it");
+    return e.say(".control.mode", word, "is already the mode at this time", "remove this key");
   if (e.mode == control::Mode::off) return;
   if (!e.at.reference)
-    e.say(".control.mode", word, "needs a new reference, because the present reference has another unit",
+    e.say(".control.mode", word,
+          "needs a new reference, because the present reference is in the unit of the earlier mode",
           "add a reference to this event, in " + std::string(reference_unit(e.mode)));
   else if (goes_on(*e.at.reference))
-    e.say(".reference", "", "continues from the reference's last value, which has another unit",
-          "give start, or let times_s begin at 0");
+    e.say(".reference", "",
+          "continues from the last value of the reference, which is in the unit of the earlier mode",
+          "give reference.start, or let reference.times_s begin at 0");
   if (e.s.control.slew && !e.at.control.slew)
-    e.say(".control.mode", word, "leaves control.slew in the unit of the earlier mode",
+    e.say(".control.mode", word,
+          "changes the mode, and control.slew is still in the unit of the earlier mode",
           "add control.slew to this event");
 }
 
@@ -78,11 +81,11 @@ void check_chip(const Event& e) {
   if (e.at.control.current.band_A && e.s.control.current.type != CurrentLoopType::hysteresis)
     e.say(".control.current.band_A", written(*e.at.control.current.band_A),
           "applies to a hysteresis only, and control.current.type is not \"hysteresis\"",
-          "remove it: the type of the current loop cannot change during a run");
+          "remove this key: the type of the current loop cannot change during a run");
   if (e.at.pwm.chopping != AtChopping::same && e.s.control.smooth_chopping.on)
     e.say(".pwm.chopping", "",
           "has no effect, because control.smooth_chopping selects the chopping by the current",
-          "remove it, or set control.smooth_chopping.on = false");
+          "remove this key, or set control.smooth_chopping.on = false");
   if (e.at.bridge.dead_time_s)
     check_dead_time(e.where + ".bridge.dead_time_s", *e.at.bridge.dead_time_s, e.s.pwm, e.out);
 }
@@ -96,11 +99,12 @@ void check_drift(const Event& e) {
   const char* key = offset ? ".sensors.current_offset_A" : ".sensors.current_gain_error";
   const std::string value = written(offset ? *offset : *e.at.sensors.current_gain_error);
   if (sensors.currents == rig::CurrentMeasurement::ideal)
-    return e.say(key, value, "applies to an amplifier only, and sensors.currents = \"ideal\"",
-                 "set sensors.currents = \"phases\", \"dc-link\" or \"low-side\", and current_range_A");
+    return e.say(
+        key, value, "applies to an amplifier only, and sensors.currents = \"ideal\"",
+        "set sensors.currents = \"phases\", \"dc-link\" or \"low-side\", and give sensors.current_range_A");
   if (offset && sensors.current_range_A && std::fabs(*offset) >= *sensors.current_range_A)
     e.say(key, value, "leaves no range within sensors.current_range_A = " + written(*sensors.current_range_A),
-          "lower it, or raise sensors.current_range_A");
+          "lower this value, or raise sensors.current_range_A");
 }
 
 void check_event(const Event& e) {
@@ -115,27 +119,26 @@ void check_event(const Event& e) {
   if (changes_nothing(at))
     out.push_back(
         {where + ".time_s", written(at.time_s), "changes nothing",
-         "give a reference, a value of supply or load, motor.broken_wire, request, or a change of sensors, "
-         "control, pwm or bridge"});
+         "give one key of reference, supply, load, motor, request, sensors, control, pwm or bridge"});
   if (at.supply.voltage_V && s.supply.source != SourceKind::steady)
     out.push_back({where + ".supply.voltage_V", written(*at.supply.voltage_V),
                    "applies to a steady source only, and supply.source is a battery or mains",
-                   "remove it, or set supply.source = \"steady\""});
+                   "remove this key, or set supply.source = \"steady\""});
   if (at.load.torque_Nm && !s.load.dynamometer_rad_s.empty())
     out.push_back({where + ".load.torque_Nm", written(*at.load.torque_Nm),
                    "has no effect, because a dynamometer imposes the speed",
-                   "remove it: with a dynamometer the torque is a result of the run"});
+                   "remove this key: with a dynamometer the torque is a result of the run"});
   if (at.supply.sinks == false && !(s.supply.capacitance_F > 0))
-    out.push_back({where + ".supply.sinks", "false", "needs a bus whose voltage can rise",
+    out.push_back({where + ".supply.sinks", "false", "needs a bus with a capacitor, whose voltage can rise",
                    "give supply.resistance_ohm and supply.capacitance_F"});
   const std::optional<double>& limit_V = s.control.regeneration.limit_V;
   if (at.supply.voltage_V && limit_V && !(*at.supply.voltage_V < *limit_V))
     out.push_back({where + ".supply.voltage_V", written(*at.supply.voltage_V),
                    "must stay below control.regeneration.limit_V = " + written(*limit_V),
-                   "lower it, or raise limit_V: above limit_V the drive could not brake"});
+                   "lower this value, or raise limit_V: above limit_V the drive could not brake"});
   if (at.reference && mode == control::Mode::off)
-    out.push_back({where + ".reference", "", "sets a reference, and control.mode = \"off\" has none",
-                   "set control.mode"});
+    out.push_back({where + ".reference", "", "sets a reference, which control.mode = \"off\" does not have",
+                   "set control.mode = \"duty\", \"current\", \"speed\" or \"position\""});
   if (at.request != DriveRequest::none && s.control.drive != FirmwareKind::product)
     out.push_back(
         {where + ".request", "", "is read by the product drive only", "set control.drive = \"product\""});

@@ -11,7 +11,7 @@ namespace sixstep::study {
 
 namespace {
 
-constexpr const char* other_drive = "remove it, or set control.drive = \"lean\"";
+constexpr const char* other_drive = "remove this key, or set control.drive = \"lean\"";
 
 /// Requires centred pulses with all three legs complementary.
 void check_pwm(const Scenario& s, base::Problems& out) {
@@ -39,33 +39,33 @@ void check_field_loops(const Scenario& s, base::Problems& out) {
     if (given) out.push_back({key, "", limit, cure});
   };
   refuse(c.mode == control::Mode::duty, "control.mode",
-         "= \"duty\" applies to a driven pair, and the field-oriented drive has none",
+         "= \"duty\" applies to a driven pair, which the field-oriented drive does not have",
          "set mode = \"current\", \"speed\" or \"position\"");
   if (c.arithmetic != Arithmetic::float64 && c.arithmetic != Arithmetic::float32)
     out.push_back({"control.arithmetic", std::string(base::word(arithmetic_choices, c.arithmetic)),
                    "is fixed point, for which the field-oriented drive has no proven scaling",
                    "set arithmetic = \"float\" or \"double\""});
   refuse(c.current.type == CurrentLoopType::deadbeat, "control.current.type",
-         "= \"deadbeat\" predicts for a driven pair, and the field-oriented drive has none",
+         "= \"deadbeat\" predicts for a driven pair, which the field-oriented drive does not have",
          "set type = \"pi\"");
   refuse(c.current.feedback != CurrentFeedback::mean, "control.current.feedback",
-         "applies to commutation, and the field-oriented drive has none", "remove it");
+         "applies to commutation, which the field-oriented drive does not have", "remove this key");
   refuse(c.current.commutation != CurrentCommutation::plain, "control.current.commutation",
-         "applies to commutation, and the field-oriented drive has none", "remove it");
+         "applies to commutation, which the field-oriented drive does not have", "remove this key");
   refuse(c.current.type == CurrentLoopType::hysteresis, "control.current.type",
-         "= \"hysteresis\" applies to a driven pair, and the field-oriented drive has none",
+         "= \"hysteresis\" applies to a driven pair, which the field-oriented drive does not have",
          "set type = \"pi\"");
   refuse(c.speed.output == SpeedOutput::duty, "control.speed.output",
-         "= \"duty\" applies to a driven pair, and the field-oriented drive has none",
+         "= \"duty\" applies to a driven pair, which the field-oriented drive does not have",
          "set output = \"current\"");
   const char* const of_pair = "applies to the current loop of six-step only";
   refuse(c.current.back_emf_feed_forward, "control.current.back_emf_feed_forward", of_pair,
-         "remove it: control.field.decoupling adds the induced voltages");
+         "remove this key: control.field.decoupling adds the induced voltages");
   refuse(c.current.measured_bus_from_V.has_value(), "control.current.measured_bus_from_V", of_pair,
-         "remove it: the field-oriented drive always uses the measured bus voltage");
+         "remove this key: the field-oriented drive always uses the measured bus voltage");
   const Limits& l = c.limits;
   refuse(l.current_A || l.torque_Nm || l.speed_rad_s, "control.limits", of_pair,
-         "remove it; control.current.limit_A limits the current below a speed or position loop");
+         "remove this key; control.current.limit_A limits the current below a speed or position loop");
   refuse(c.regeneration.limit_V.has_value(), "control.regeneration", of_pair, other_drive);
   refuse(c.smooth_chopping.on, "control.smooth_chopping", of_pair, other_drive);
 }
@@ -76,19 +76,19 @@ void check_unsensed(const Scenario& s, base::Problems& out) {
   if (s.sensors.rotor != RotorSensing::ideal)
     out.push_back({"sensors.rotor", std::string(base::word(rotor_sensing_choices, s.sensors.rotor)),
                    "has no effect where control.field.angle is " + angle(),
-                   "remove it, or set control.field.angle = \"sensors\""});
+                   "remove this key, or set control.field.angle = \"sensors\""});
   if (s.control.field.law == FieldLaw::finite_set)
     out.push_back({"control.field.law", "\"finite-set\"",
-                   "makes no PWM pulses, and control.field.angle = " + angle() + " needs them",
+                   "makes no PWM pulses, and control.field.angle = " + angle() + " needs PWM pulses",
                    "set law = \"pi\", or control.field.angle = \"sensors\""});
   if (s.control.mode == control::Mode::position)
     out.push_back({"control.mode", "\"position\"",
-                   "needs a sensor that counts turns, and an estimated angle does not count them",
+                   "needs a sensor that counts turns, and an estimated angle does not count turns",
                    "set control.mode = \"speed\" or \"current\", or control.field.angle = \"sensors\""});
   if (s.control.field.angle != FieldAngle::observer && s.pwm.sample == SampleAt::middle)
     out.push_back(
         {"pwm.sample", "\"middle\"",
-         "samples where the current of the injected pulse crosses zero; this current cannot be measured then",
+         "samples at an instant at which the current of the injected pulse is zero and cannot be measured",
          "set sample = \"start\""});
   if (s.sheet.kind == design::MotorKind::linear)
     out.push_back({"control.drive", "\"field-oriented\"",
@@ -125,9 +125,10 @@ void check_keys(const Scenario& s, base::Problems& out) {
   const Field& f = s.control.field;
   const CurrentLoop& loop = s.control.current;
   if (f.bandwidth_Hz && (gives_gains(loop)))
-    out.push_back({"control.field.bandwidth_Hz", "",
-                   "contradicts the gains in control.current: the gains are given and designed",
-                   "keep either the bandwidth or the gains"});
+    out.push_back(
+        {"control.field.bandwidth_Hz", "",
+         "contradicts the gains in control.current: the gains are both given and designed from the bandwidth",
+         "remove control.field.bandwidth_Hz, or the gains in control.current"});
   const bool injects = f.angle == FieldAngle::injection || f.angle == FieldAngle::injection_observer;
   const bool observes = f.angle == FieldAngle::observer || f.angle == FieldAngle::injection_observer;
   const auto needs = [&out](bool given, bool serves, const char* key, const char* of, const char* cure) {
@@ -135,24 +136,25 @@ void check_keys(const Scenario& s, base::Problems& out) {
   };
   needs(f.angle_bandwidth_Hz.has_value(), injects || observes, "control.field.angle_bandwidth_Hz",
         "applies to an estimated angle only, and this drive measures the angle",
-        "remove it, or set control.field.angle");
+        "remove this key, or set control.field.angle = \"observer\" or \"injection\"");
   needs(f.injection_V.has_value(), injects, "control.field.injection_V",
         "has no effect, because control.field.angle has no injection",
-        "remove it, or set control.field.angle = \"injection\"");
+        "remove this key, or set control.field.angle = \"injection\"");
   needs(f.observer_from_rad_s.has_value(), observes, "control.field.observer_from_rad_s",
-        "applies to an observer, and the drive has none",
-        "remove it, or set control.field.angle = \"observer\"");
+        "applies to an observer, which the drive does not have",
+        "remove this key, or set control.field.angle = \"observer\"");
   needs(f.start_current_A.has_value(), observes && !injects, "control.field.start_current_A",
         "turns a rotor whose angle is unknown at rest, and this drive measures the angle at rest",
-        "remove it, or set control.field.angle = \"observer\"");
+        "remove this key, or set control.field.angle = \"observer\"");
   if (f.weakening_A && f.voltage_limit != control::VoltageLimit::circle)
-    out.push_back({"control.field.weakening_A", "", "needs voltage_limit = \"circle\", and it is \"axes\"",
-                   "set control.field.voltage_limit = \"circle\", or remove it"});
+    out.push_back({"control.field.weakening_A", "",
+                   "needs control.field.voltage_limit = \"circle\", but the limit is \"axes\"",
+                   "set control.field.voltage_limit = \"circle\", or remove this key"});
   if (f.harmonic_current && design::is_salient(s.sheet))
     out.push_back(
         {"control.field.harmonic_current", "true",
-         "is computed for a round rotor only, and d_axis_inductance_mH and q_axis_inductance_mH differ",
-         "remove it, or give the motor one inductance_mH"});
+         "is computed only for a round rotor, but d_axis_inductance_mH and q_axis_inductance_mH differ",
+         "remove this key, or give the motor one inductance_mH"});
 }
 
 }  // namespace
@@ -160,8 +162,9 @@ void check_keys(const Scenario& s, base::Problems& out) {
 void check_pair_figures(const Scenario& s, base::Problems& out) {
   const auto refuse = [&out](const Measure& m, const std::string& where) {
     if (fact_of(m.metric).of == TakenOf::commutations)
-      out.push_back({where + ".metric", "", "applies to commutation, and a drive of three legs has none",
-                     "measure another figure"});
+      out.push_back({where + ".metric", "",
+                     "applies to commutation, which a drive of three legs does not have",
+                     "use another metric"});
   };
   for (std::size_t n = 0; n < s.require.size(); ++n)
     refuse(s.require[n].measure, "require[" + std::to_string(n) + "]");
@@ -173,7 +176,7 @@ void check_field(const Scenario& s, base::Problems& out) {
   if (s.control.drive != FirmwareKind::field) {
     if (s.control.field != Field{})
       out.push_back({"control.field", "", "applies to the field-oriented drive only",
-                     "set control.drive = \"field-oriented\", or remove it"});
+                     "set control.drive = \"field-oriented\", or remove this key"});
     return;
   }
   check_pwm(s, out);

@@ -13,7 +13,7 @@ void check_beside_pi(const Field& f, base::Problems& out) {
   const auto refuse = [&out](bool given, const char* key) {
     if (given)
       out.push_back({key, "", "applies to finite-set control only, and control.field.law is \"pi\"",
-                     "set control.field.law = \"finite-set\", or remove it"});
+                     "set control.field.law = \"finite-set\", or remove this key"});
   };
   refuse(f.switching_weight_A > 0, "control.field.switching_weight_A");
   refuse(f.peak_A.has_value(), "control.field.peak_A");
@@ -30,12 +30,12 @@ void check_finite_set(const Scenario& s, base::Problems& out) {
   };
   const CurrentLoop& loop = s.control.current;
   const char* const no_loop =
-      "applies to current loops only, and control.field.law = \"finite-set\" has none";
-  const char* const to_pi = "remove it, or set control.field.law = \"pi\"";
+      "applies only to current loops, which control.field.law = \"finite-set\" does not have";
+  const char* const to_pi = "remove this key, or set control.field.law = \"pi\"";
   refuse(f.bandwidth_Hz.has_value(), "control.field.bandwidth_Hz", no_loop, to_pi);
   refuse(gives_gains(loop), "control.current", no_loop, to_pi);
   refuse(!f.decoupling, "control.field.decoupling",
-         "= false omits the induced voltages, and finite-set control predicts with them", to_pi);
+         "= false omits the induced voltages, which finite-set control needs for its prediction", to_pi);
   refuse(
       f.voltage_limit != control::VoltageLimit::circle, "control.field.voltage_limit",
       "= \"axes\" limits the magnitude of the voltage, which is fixed when the legs keep one state for a whole period",
@@ -48,7 +48,7 @@ void check_finite_set(const Scenario& s, base::Problems& out) {
          "rotates the output, and finite-set control predicts the magnet's angle itself", to_pi);
   refuse(
       s.pwm.sample == SampleAt::middle, "pwm.sample",
-      "= \"middle\" is half a period before the legs switch, and finite-set control does not predict over this half period",
+      "= \"middle\" samples half a period before the legs switch, and finite-set control does not predict over this half period",
       "set sample = \"start\"");
 }
 

@@ -21,7 +21,7 @@ void check_energies(const Bridge& b, base::Problems& out) {
         {energies ? "bridge.energies_at_V" : "bridge.turn_on_J", "",
          energies
              ? "and bridge.energies_at_A are missing: the switching energies belong to a voltage and a current"
-             : "is missing: energies_at_V and energies_at_A alone have no effect",
+             : "is missing: without it energies_at_V and energies_at_A have no effect",
          "give turn_on_J, turn_off_J, recovery_J, energies_at_V and energies_at_A"});
   if (energies && point && !(b.turn_on_J > 0 && b.turn_off_J > 0))
     out.push_back({b.turn_on_J > 0 ? "bridge.turn_off_J" : "bridge.turn_on_J", "",
@@ -37,12 +37,14 @@ void check_energies(const Bridge& b, base::Problems& out) {
   if (given == 1 || given == 2)
     for (const auto& [key, value] : gate)
       if (!(value > 0))
-        out.push_back({key, base::six_digits(value),
-                       "must be above 0 if one of the three gate values is given",
-                       "give gate_current_A, gate_source_charge_C and gate_drain_charge_C, or none of them"});
+        out.push_back(
+            {key, base::six_digits(value), "must be above 0 if one of the three gate values is given",
+             "give all three keys gate_current_A, gate_source_charge_C and gate_drain_charge_C, or remove all three"});
   if (given == 3 && energies)
-    out.push_back({"bridge.gate_drain_charge_C", base::six_digits(b.gate_drain_charge_C),
-                   "repeats turn_on_J and turn_off_J", "keep either the energies or the gate values"});
+    out.push_back(
+        {"bridge.gate_drain_charge_C", base::six_digits(b.gate_drain_charge_C),
+         "repeats turn_on_J and turn_off_J",
+         "remove the energies (turn_on_J, turn_off_J) or the gate values (gate_current_A and both charges)"});
 }
 
 }  // namespace
@@ -61,20 +63,22 @@ void check_heat(const Scenario& s, base::Problems& out) {
       out.push_back(std::move(*lost));
   if (h.devices && !(s.bridge.junction_K_W > 0))
     out.push_back(
-        {"heat.devices", "true", "needs bridge.junction_K_W", "give the thermal resistance of a switch"});
+        {"heat.devices", "true", "needs bridge.junction_K_W",
+         "give bridge.junction_K_W, the thermal resistance of a switch from junction to heat sink"});
   if (!h.devices && s.bridge.on_resistance_percent_K > 0)
     out.push_back({"bridge.on_resistance_percent_K", base::six_digits(s.bridge.on_resistance_percent_K),
-                   "has no effect while heat.devices = false", "set heat.devices = true, or remove it"});
+                   "has no effect while heat.devices = false",
+                   "set heat.devices = true, or remove this key"});
   const auto unused = [&](const char* key, const std::optional<double>& value) {
     if (value && !h.motor)
       out.push_back({key, base::six_digits(*value), "applies only with heat.motor = true",
-                     "set heat.motor = true, or remove it"});
+                     "set heat.motor = true, or remove this key"});
   };
   unused("heat.winding_degC", h.winding_degC);
   unused("heat.housing_degC", h.housing_degC);
   if ((h.motor || h.devices) && h.step_s < s.pwm.period_s)
-    out.push_back(
-        {"heat.step_s", base::six_digits(h.step_s), "must not be shorter than pwm.period_s", "lengthen it"});
+    out.push_back({"heat.step_s", base::six_digits(h.step_s), "must not be shorter than pwm.period_s",
+                   "set heat.step_s to pwm.period_s or more"});
 }
 
 }  // namespace sixstep::study

@@ -43,14 +43,14 @@ void check_window(const Asked& a) {
   if (!a.m.to_s && !(a.from_s() < a.s.duration_s))
     return a.refuse("from_s", base::written(a.from_s()),
                     "is not before the end of the run (duration_s = " + base::written(a.s.duration_s) + ")",
-                    "let the window begin earlier, or lengthen duration_s");
+                    "lower from_s, or lengthen duration_s");
   if (!(a.from_s() < a.to_s()))
     a.refuse("to_s", base::written(a.to_s()), "must be after from_s = " + base::written(a.from_s()),
-             "give the window as from_s < to_s");
+             "give a from_s that is smaller than to_s");
   if (a.to_s() > a.s.duration_s)
     a.refuse("to_s", base::written(a.to_s()),
              "is after the end of the run (duration_s = " + base::written(a.s.duration_s) + ")",
-             "shorten the window, or lengthen duration_s");
+             "lower to_s, or lengthen duration_s");
 }
 
 /// Requires event comparators, because only event comparators keep the current in a band.
@@ -76,7 +76,7 @@ void check_signal(const Asked& a) {
     case TakenOf::transitions:
       if (!switching_law(a.s.bridge).any())
         a.refuse(
-            "metric", quoted(a.m.metric), "needs the switches' energies, and [bridge] has none",
+            "metric", quoted(a.m.metric), "needs the switches' energies, which [bridge] does not have",
             "give bridge.turn_on_J, turn_off_J and recovery_J, or gate_current_A and the gate's charges");
       [[fallthrough]];
     case TakenOf::commutations:
@@ -136,11 +136,11 @@ void check_level(const Asked& a) {
   const bool wanted = fact_of(a.m.metric).over != TakenOver::window;
   if (wanted && !a.m.level && !is_controlled(a.m.signal, a.s.control))
     a.refuse("level", "", "is missing, and the reference belongs to another signal",
-             "give the level that the signal must reach, in the signal's unit");
+             "give level, the value that the signal must reach, in the signal's unit");
   const Measure usual;
   const auto looks_not = [&a](const char* key, double value) {
-    a.refuse(key, base::written(value), "has no effect: " + quoted(a.m.metric) + " does not use it",
-             "remove it");
+    a.refuse(key, base::written(value), "has no effect: " + quoted(a.m.metric) + " does not use this key",
+             "remove this key");
   };
   if (a.m.level && !wanted) looks_not("level", *a.m.level);
   if (a.m.start && !is_of_a_step(a.m.metric)) looks_not("start", *a.m.start);
@@ -148,12 +148,13 @@ void check_level(const Asked& a) {
     looks_not("fraction", a.m.fraction);
   if (a.m.band != usual.band && a.m.metric != MetricKind::settling_time) looks_not("band", a.m.band);
   if (a.m.tail && !is_of_a_level(a.m.metric))
-    a.refuse("tail", base::written(*a.m.tail), "has no effect: " + quoted(a.m.metric) + " does not use it",
-             "remove it, or set from_s and to_s");
+    a.refuse("tail", base::written(*a.m.tail),
+             "has no effect: " + quoted(a.m.metric) + " does not use this key",
+             "remove this key, or set from_s and to_s");
   if (a.m.tail && is_of_a_level(a.m.metric) && a.m.level)
     a.refuse("tail", base::written(*a.m.tail),
              "applies to the levels of the reference only, and level is given",
-             "remove it, and set from_s and to_s");
+             "remove this key, and set from_s and to_s");
 }
 
 /// Requires a reference with constant levels, because the levels define the steps. A moving reference has no
@@ -170,18 +171,18 @@ void check_levels_of_reference(const Asked& a) {
   if (takes_levels && !a.m.level && changes_mode(a.s))
     a.refuse("level", "",
              "is missing: the mode changes during the run, so that the reference changes its quantity",
-             "give the level that the signal must reach, and from_s and to_s");
+             "give level, the value that the signal must reach, and from_s and to_s");
 }
 
 void check_sampled(const Asked& a) {
   if (!a.m.sampled) return;
   if (fact_of(a.m.metric).of != TakenOf::signal)
     a.refuse("sampled", "true", "would falsify " + quoted(a.m.metric) + ", which needs the whole curve",
-             "remove it: the whole curve is evaluated");
+             "remove this key: the whole curve is evaluated");
   else if (!is_known_at_samples(a.m.signal))
     a.refuse("sampled", "true",
              "is not valid for " + quoted(a.m.signal) + ", which jumps where the samples are taken",
-             "remove it: the whole curve is evaluated");
+             "remove this key: the whole curve is evaluated");
 }
 
 void check_fundamental(const Asked& a) {
@@ -189,20 +190,21 @@ void check_fundamental(const Asked& a) {
   if (fact_of(a.m.metric).of != TakenOf::fundamental) {
     if (frequency_Hz)
       a.refuse("frequency_Hz", base::written(*frequency_Hz),
-               "has no effect: " + quoted(a.m.metric) + " does not use it", "remove it");
+               "has no effect: " + quoted(a.m.metric) + " does not use this key", "remove this key");
     return;
   }
   if (frequency_Hz && whole_periods({a.from_s(), a.to_s()}, *frequency_Hz) < 1.0)
     a.refuse("frequency_Hz", base::written(*frequency_Hz),
              "has no whole period in the window of " + base::written(a.to_s() - a.from_s()) + " s",
-             "lengthen the window, or give a higher frequency");
+             "lengthen the window from_s to to_s, or give a higher frequency_Hz");
   if (!frequency_Hz && !alternates(a.m.signal))
-    a.refuse("frequency_Hz", "",
-             "is missing: " + quoted(a.m.signal) + " does not alternate with the rotor's rotation",
-             "give the fundamental, or the signal of a phase: \"i_a\", \"u_ab_V\", \"e_a_V\"");
+    a.refuse(
+        "frequency_Hz", "",
+        "is missing: " + quoted(a.m.signal) + " does not alternate with the rotor's rotation",
+        "give the fundamental as frequency_Hz, or choose the signal of a phase: \"i_a\", \"u_ab_V\" or \"e_a_V\"");
   else if (!frequency_Hz && a.s.load.locked)
     a.refuse("frequency_Hz", "", "is missing: a locked rotor has no electrical frequency",
-             "give the fundamental, or set load.locked = false");
+             "give the fundamental as frequency_Hz, or set load.locked = false");
 }
 
 void check_measure(const Measure& m, const std::string& where, const Scenario& s, bool sound_references,
@@ -234,7 +236,7 @@ void check_measures(const Scenario& s, bool sound_references, base::Problems& ou
     const std::string where = "require[" + std::to_string(n) + "]";
     check_measure(s.require[n].measure, where, s, sound_references, out);
     if (!s.require[n].min && !s.require[n].max)
-      out.push_back({where, "", "requires nothing", "give min, max or both"});
+      out.push_back({where, "", "requires nothing", "give min, max or both keys"});
     if (s.require[n].min && s.require[n].max && *s.require[n].min > *s.require[n].max)
       out.push_back({where + ".min", base::written(*s.require[n].min),
                      "lies above max = " + base::written(*s.require[n].max), "swap them"});

@@ -45,8 +45,9 @@ void check_own_numbers(const Own& own, base::Problems& out) {
     const sixstep_parameter* is = parameter(*own.loaded, given.name);
     if (is == nullptr) {
       const std::string names = names_of(*own.loaded);
-      out.push_back({where + ".name", '"' + given.name + '"', "is not the name of a number of the controller",
-                     names.empty() ? "remove it: the controller has no numbers" : "use one of: " + names});
+      out.push_back(
+          {where + ".name", '"' + given.name + '"', "is not the name of a number of the controller",
+           names.empty() ? "remove this key: the controller has no numbers" : "use one of: " + names});
     } else if (!(given.value >= is->least && given.value <= is->most)) {
       out.push_back(
           {where + ".value", base::written(given.value),
@@ -55,7 +56,8 @@ void check_own_numbers(const Own& own, base::Problems& out) {
     }
     const auto same = [&](const OwnNumber& other) { return other.name == given.name; };
     if (std::any_of(own.number.begin(), own.number.begin() + static_cast<std::ptrdiff_t>(n), same))
-      out.push_back({where + ".name", '"' + given.name + '"', "is given twice", "keep one of the two"});
+      out.push_back(
+          {where + ".name", '"' + given.name + '"', "is given twice", "remove one of the two entries"});
   }
 }
 
@@ -71,22 +73,23 @@ void check_around(const Scenario& s, base::Problems& out) {
   if (c.arithmetic != Arithmetic::float64)
     out.push_back({"control.arithmetic", std::string(base::word(arithmetic_choices, c.arithmetic)),
                    "applies to the built-in controllers: a user's controller has its own number types",
-                   "remove it"});
-  refuse(c.current.type != CurrentLoopType::pi, "control.current.type", its_own, "remove it");
-  refuse(c.current.feedback != CurrentFeedback::mean, "control.current.feedback", its_own, "remove it");
+                   "remove this key"});
+  refuse(c.current.type != CurrentLoopType::pi, "control.current.type", its_own, "remove this key");
+  refuse(c.current.feedback != CurrentFeedback::mean, "control.current.feedback", its_own, "remove this key");
   refuse(c.current.commutation != CurrentCommutation::plain, "control.current.commutation", its_own,
-         "remove it");
-  refuse(c.current.back_emf_feed_forward, "control.current.back_emf_feed_forward", its_own, "remove it");
+         "remove this key");
+  refuse(c.current.back_emf_feed_forward, "control.current.back_emf_feed_forward", its_own,
+         "remove this key");
   refuse(c.current.measured_bus_from_V.has_value(), "control.current.measured_bus_from_V", its_own,
-         "remove it");
-  refuse(c.speed.law != SpeedLaw::pi, "control.speed.law", its_own, "remove it");
+         "remove this key");
+  refuse(c.speed.law != SpeedLaw::pi, "control.speed.law", its_own, "remove this key");
   refuse(c.limits.current_A || c.limits.torque_Nm || c.limits.speed_rad_s, "control.limits", its_own,
-         "remove it");
-  refuse(c.regeneration.limit_V.has_value(), "control.regeneration", its_own, "remove it");
-  refuse(c.smooth_chopping.on, "control.smooth_chopping", its_own, "remove it");
-  refuse(c.slew.has_value(), "control.slew", its_own, "remove it");
-  refuse(c.position.profile.on, "control.position.profile", its_own, "remove it");
-  refuse(s.pwm.pattern != control::PwmPattern::upper, "pwm.pattern", its_own, "remove it");
+         "remove this key");
+  refuse(c.regeneration.limit_V.has_value(), "control.regeneration", its_own, "remove this key");
+  refuse(c.smooth_chopping.on, "control.smooth_chopping", its_own, "remove this key");
+  refuse(c.slew.has_value(), "control.slew", its_own, "remove this key");
+  refuse(c.position.profile.on, "control.position.profile", its_own, "remove this key");
+  refuse(s.pwm.pattern != control::PwmPattern::upper, "pwm.pattern", its_own, "remove this key");
 }
 
 }  // namespace
@@ -95,8 +98,8 @@ base::Problems check_controller(const sixstep_controller& is) {
   base::Problems out;
   const auto refuse = [&out](bool wrong, const char* where, const std::string& value, const char* limit) {
     if (wrong)
-      out.push_back({where, value, limit,
-                     "compare the controller's description with sixstep/control/own/own_controller.h"});
+      out.push_back(
+          {where, value, limit, "correct this member as sixstep/control/own/own_controller.h describes it"});
   };
   if (is.interface == in_float)
     return {{"interface", std::to_string(is.interface),
@@ -109,8 +112,8 @@ base::Problems check_controller(const sixstep_controller& is) {
   if (!out.empty()) return out;
   refuse(is.answers != SIXSTEP_ANSWERS_PAIR && is.answers != SIXSTEP_ANSWERS_LEGS, "answers",
          std::to_string(is.answers), "must be SIXSTEP_ANSWERS_PAIR or SIXSTEP_ANSWERS_LEGS");
-  refuse(is.name == nullptr || *is.name == 0, "name", "", "must be a few words");
-  refuse(is.sentence == nullptr, "sentence", "", "must be a sentence");
+  refuse(is.name == nullptr || *is.name == 0, "name", "", "must be a text that is not empty");
+  refuse(is.sentence == nullptr, "sentence", "", "must be a text: a sentence about the controller");
   refuse(is.config_bytes > most_bytes, "config_bytes", std::to_string(is.config_bytes),
          "must be 65536 at most");
   refuse(is.state_bytes > most_bytes, "state_bytes", std::to_string(is.state_bytes), "must be 65536 at most");
@@ -137,14 +140,15 @@ void check_own(const Scenario& s, base::Problems& out) {
   if (s.control.drive != FirmwareKind::own) {
     if (own != Own{})
       out.push_back({"control.own", "", "applies to a user's controller only",
-                     "set control.drive = \"own\", or remove it"});
+                     "set control.drive = \"own\", or remove this key"});
     return;
   }
   if (own.controller.empty())
-    out.push_back({"control.own.controller", "", "is missing", "name the shared object of the controller"});
+    out.push_back({"control.own.controller", "", "is missing",
+                   "set control.own.controller to the shared object of the controller"});
   else if (own.loaded == nullptr)
     out.push_back({"control.own.controller", '"' + own.controller + '"', "is not loaded",
-                   "read the scenario from a file"});
+                   "write the scenario to a file, and open this file"});
   else
     check_own_numbers(own, out);
   check_around(s, out);

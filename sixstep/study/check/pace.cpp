@@ -30,7 +30,7 @@ void check_bridge(const Scenario& s, const plant::Machine& m, base::Problems& ou
   out.push_back({diode ? "bridge.diode_resistance_ohm" : "bridge.on_resistance_ohm",
                  written(diode ? b.diode_resistance_ohm : b.on_resistance_ohm),
                  "makes the time constant of winding and bridge " + too_short(rate),
-                 "check its unit: a MOSFET has milliohms"});
+                 "check the unit of this value: a MOSFET has milliohms"});
 }
 
 void check_bus(const Scenario& s, const plant::Machine& m, base::Problems& out) {
@@ -44,7 +44,7 @@ void check_bus(const Scenario& s, const plant::Machine& m, base::Problems& out) 
         {"supply.capacitance_F", written(from.capacitance_F),
          "makes the bus's time constant with supply.resistance_ohm = " + written(from.resistance_ohm) +
              " and the winding " + too_short(rate),
-         "check its unit: a bus has hundreds of microfarads; for a stiff bus remove resistance and capacitance"});
+         "check the unit of this value: a bus has hundreds of microfarads; for a stiff bus remove resistance and capacitance"});
 }
 
 void check_friction(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
@@ -55,7 +55,7 @@ void check_friction(const Scenario& s, const design::MotorModel& motor, base::Pr
   if (rate > fastest_answer_1_s)
     out.push_back({"load.viscous_Nm_s", written(s.load.viscous_Nm_s),
                    "stops the rotor within " + too_short(rate),
-                   "check its unit, or set load.locked = true to hold the rotor"});
+                   "check the unit of this value, or set load.locked = true to hold the rotor"});
 }
 
 /// Time constant of a battery's recovery: the recovery capacitor C_1 discharges through its resistor R_1, and
@@ -68,7 +68,7 @@ void check_recovery(const Supply& from, base::Problems& out) {
     out.push_back({"supply.battery_recovery_F", written(from.battery_recovery_F),
                    "makes the battery's time constant with supply.battery_recovery_ohm = " +
                        written(from.battery_recovery_ohm) + " " + too_short(rate),
-                   "check its unit: a cell recovers over milliseconds to minutes"});
+                   "check the unit of this value: a cell recovers over milliseconds to minutes"});
 }
 
 /// Checks the time constants of the source's inductance, of the bus capacitor and of the brake resistor.
@@ -79,20 +79,20 @@ void check_source(const Scenario& s, const plant::Machine& m, base::Problems& ou
   if (const double rate = from.capacitor_resistance_ohm / L; rate > fastest_answer_1_s)
     out.push_back({"supply.capacitor_resistance_ohm", written(from.capacitor_resistance_ohm),
                    "makes the time constant with the source and winding inductances " + too_short(rate),
-                   "check its unit: a bus capacitor has milliohms"});
+                   "check the unit of this value: a bus capacitor has milliohms"});
   if (from.inductance_H > 0) {
     const double rate =
         from.resistance_ohm / from.inductance_H + 1 / std::sqrt(from.inductance_H * from.capacitance_F);
     if (rate > fastest_answer_1_s)
       out.push_back({"supply.inductance_H", written(from.inductance_H),
                      "makes the source's time constant " + too_short(rate),
-                     "check its unit: a cable has microhenries; or remove it"});
+                     "check the unit of this value: a cable has microhenries; or remove this key"});
   }
   if (from.brake_resistance_ohm > 0) {
     const double rate = 1 / (from.brake_resistance_ohm * from.capacitance_F);
     if (rate > fastest_answer_1_s)
       out.push_back({"supply.brake_resistance_ohm", written(from.brake_resistance_ohm),
-                     "empties the bus within " + too_short(rate), "check its unit"});
+                     "empties the bus within " + too_short(rate), "check the unit of this value"});
   }
 }
 
@@ -103,7 +103,7 @@ void check_coupling(const Scenario& s, const design::MotorModel& motor, base::Pr
   const auto look = [&](const char* key, double value, double rate) {
     if (rate > fastest_answer_1_s)
       out.push_back({key, written(value), "makes the shaft's time constant " + too_short(rate),
-                     "check its unit, and the units of load.gear and the inertias"});
+                     "check the unit of this value, and the units of load.gear and the inertias"});
   };
   const bool elastic = l.stiffness_Nm_rad > 0 && J_2 > 0;
   if (elastic) {
@@ -151,7 +151,8 @@ void check_field_pace(const Scenario& s, const plant::Machine& m, base::Problems
                          base::three_digits(fastest_field_rad_s),
                      cure});
   };
-  constexpr const char* too_high = "lower the voltage, or check the unit of the motor's torque constant";
+  constexpr const char* too_high =
+      "lower supply.voltage_V, or correct the unit of the motor's torque constant";
   look("supply.voltage_V", s.supply.voltage_V, plant::field_at(m, s.supply.voltage_V), too_high);
   if (s.initial.bus_V)
     look("initial.bus_V", *s.initial.bus_V, plant::field_at(m, *s.initial.bus_V), too_high);
@@ -160,7 +161,7 @@ void check_field_pace(const Scenario& s, const plant::Machine& m, base::Problems
       look("at[" + std::to_string(n) + "].supply.voltage_V", *voltage_V, plant::field_at(m, *voltage_V),
            too_high);
   look("initial.speed_rad_s", s.initial.speed_rad_s, m.pole_pairs * s.initial.speed_rad_s,
-       "lower it; give the speed of the shaft in rad/s");
+       "give the mechanical speed of the shaft in rad/s, not the electrical speed");
 }
 
 /// Checks the time in which the current crosses the hysteresis band. At worst the whole bus voltage drives
@@ -171,7 +172,7 @@ void check_band(const Scenario& s, const plant::Machine& m, base::Problems& out)
   const double per_s = s.supply.voltage_V / (2.0 * m.L_H), rate = per_s / (2.0 * loop.band_A);
   if (rate > fastest_answer_1_s)
     out.push_back({"control.current.band_A", written(loop.band_A), "is crossed within " + too_short(rate),
-                   "widen it to at least " + base::three_digits(per_s / (2.0 * fastest_answer_1_s)) +
+                   "widen this value to at least " + base::three_digits(per_s / (2.0 * fastest_answer_1_s)) +
                        " A, or set comparator = \"sampled\""});
 }
 
@@ -187,7 +188,7 @@ void check_minimum_pulse(const Scenario& s, base::Problems& out) {
   if (s.pwm.minimum_pulse_s > s.pwm.period_s / 2)
     out.push_back({"pwm.minimum_pulse_s", written(s.pwm.minimum_pulse_s),
                    "leaves no room for a pulse in pwm.period_s = " + written(s.pwm.period_s),
-                   "give at most half the period"});
+                   "set pwm.minimum_pulse_s to at most half of pwm.period_s"});
 }
 
 }  // namespace

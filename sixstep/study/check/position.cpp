@@ -14,26 +14,26 @@ void check_position(const Scenario& s, base::Problems& out) {
   if (!p.on) {
     if (p != PositionProfile{})
       out.push_back({"control.position.profile", "", "has no effect, because the profile is off",
-                     "set control.position.profile.on = true, or remove it"});
+                     "set control.position.profile.on = true, or remove this key"});
     return;
   }
   if (p.jerk_rad_s3 && p.smoothing_s)
     out.push_back({"control.position.profile.smoothing_s", base::six_digits(*p.smoothing_s),
-                   "contradicts jerk_rad_s3: the time in which the acceleration rises is given twice",
-                   "keep either jerk_rad_s3 or smoothing_s"});
+                   "contradicts jerk_rad_s3: both keys determine the time in which the acceleration rises",
+                   "remove jerk_rad_s3 or smoothing_s"});
   const std::optional<double>& limit = c.position.speed_limit_rad_s;
   if (p.speed_rad_s && limit && *p.speed_rad_s > *limit)
     out.push_back({"control.position.profile.speed_rad_s", base::six_digits(*p.speed_rad_s),
                    "is above control.position.speed_limit_rad_s = " + base::six_digits(*limit) +
                        ", the bound of the loop's speed reference",
-                   "lower it, best to nine tenths of the limit, or raise the limit"});
+                   "lower this value, best to nine tenths of the limit, or raise the limit"});
   if (c.slew && c.mode == control::Mode::position)
     out.push_back({"control.slew", base::six_digits(*c.slew),
-                   "limits the rate of the setpoint, which control.position.profile already shapes",
-                   "remove it: control.position.profile.speed_rad_s is the limit"});
+                   "limits the rate of the setpoint, which control.position.profile already limits",
+                   "remove this key: control.position.profile.speed_rad_s is the limit"});
   if (c.arithmetic != Arithmetic::float64 && c.arithmetic != Arithmetic::float32)
     out.push_back({"control.arithmetic", std::string(base::word(arithmetic_choices, c.arithmetic)),
-                   "has too few digits for the increments of control.position.profile",
+                   "has a resolution that is too coarse for the increments of control.position.profile",
                    "set arithmetic = \"float\" or \"double\", or remove the profile"});
   if (p.feed_forward && c.speed.law != SpeedLaw::pi)
     out.push_back({"control.position.profile.feed_forward", "true",

@@ -41,34 +41,34 @@ void check_registers(const Scenario& s, base::Problems& out) {
                    "is not decoded by the product drive, which reads Hall probes",
                    "set rotor = \"hall\", or control.drive = \"lean\""});
   if (s.sensors.currents == rig::CurrentMeasurement::dc_link && s.pwm.delay_periods > 0)
-    out.push_back({"pwm.delay_periods", std::to_string(s.pwm.delay_periods),
-                   "gives the product drive a duty that belongs to another period than the shunt sample",
-                   "set delay_periods = 0: with pwm.sample = \"middle\" the answer waits for the next start "
-                   "anyway"});
+    out.push_back(
+        {"pwm.delay_periods", std::to_string(s.pwm.delay_periods),
+         "makes the duty belong to another period than the shunt sample",
+         "set delay_periods = 0: with pwm.sample = \"middle\" the answer acts at the next period's start"});
 }
 
 void check_missing(const char* key, const std::optional<double>& threshold, const char* cure,
                    base::Problems& out) {
   if (!threshold)
     out.push_back({std::string("protection.") + key, "",
-                   "is missing: without it the product drive never starts", cure});
+                   "is missing: without this threshold the product drive never starts", cure});
 }
 
 /// Refuses a threshold beyond the converter's range.
 void check_threshold(const char* key, const std::optional<double>& threshold, double end,
                      const std::string& range, base::Problems& out) {
   if (threshold && !(*threshold < end))
-    out.push_back(
-        {std::string("protection.") + key, written(*threshold),
-         "is never exceeded: the converter measures up to " + base::rounded(end, 6) + ", by " + range,
-         "lower it, or raise " + range.substr(0, range.find(' '))});
+    out.push_back({std::string("protection.") + key, written(*threshold),
+                   "can never be exceeded: the converter measures only up to " + base::rounded(end, 6) +
+                       ", by " + range,
+                   "lower this value, or raise " + range.substr(0, range.find(' '))});
 }
 
 void check_thresholds(const Scenario& s, base::Problems& out) {
   const Protection& p = s.protection;
-  check_missing("over_current_A", p.over_current_A, "give one below sensors.current_range_A", out);
-  check_missing("over_voltage_V", p.over_voltage_V, "give one below sensors.bus_range_V", out);
-  check_missing("under_voltage_V", p.under_voltage_V, "give one below protection.over_voltage_V", out);
+  check_missing("over_current_A", p.over_current_A, "give a value below sensors.current_range_A", out);
+  check_missing("over_voltage_V", p.over_voltage_V, "give a value below sensors.bus_range_V", out);
+  check_missing("under_voltage_V", p.under_voltage_V, "give a value below protection.over_voltage_V", out);
   check_missing("over_speed_rad_s", p.over_speed_rad_s, "give one", out);
   if (s.sensors.current_range_A) {
     const std::string range = "sensors.current_range_A = " + written(*s.sensors.current_range_A);
@@ -80,27 +80,29 @@ void check_thresholds(const Scenario& s, base::Problems& out) {
                     "sensors.bus_range_V = " + written(*s.sensors.bus_range_V), out);
   if (p.under_voltage_V && p.over_voltage_V && !(*p.under_voltage_V < *p.over_voltage_V))
     out.push_back({"protection.under_voltage_V", written(*p.under_voltage_V),
-                   "must be below protection.over_voltage_V = " + written(*p.over_voltage_V), "lower it"});
+                   "must be below protection.over_voltage_V = " + written(*p.over_voltage_V),
+                   "lower this value"});
   if (p.under_voltage_V && s.sensors.bus_offset_V >= *p.under_voltage_V)
     out.push_back({"protection.under_voltage_V", written(*p.under_voltage_V),
                    "is never reached: with the bus at 0 V the converter reads sensors.bus_offset_V = " +
                        written(s.sensors.bus_offset_V),
-                   "raise it"});
+                   "raise this value"});
   if (p.stall_current_A.has_value() != p.stall_s.has_value())
     out.push_back({p.stall_s ? "protection.stall_current_A" : "protection.stall_s", "",
-                   "is missing, and stall detection needs both", "give both or none"});
+                   "is missing, and stall detection needs protection.stall_current_A and protection.stall_s",
+                   "give both keys, or remove both"});
 }
 
 void check_activities(const Scenario& s, base::Problems& out) {
   const Protection& p = s.protection;
   const bool has_current_loop = s.control.mode != Mode::off && s.control.mode != Mode::duty;
-  const std::string needs = "needs a current loop, and control.mode has none";
+  const std::string needs = "needs a current loop, which this control.mode does not have";
   if (p.align.current_A && !has_current_loop)
     out.push_back({"protection.align.current_A", written(*p.align.current_A), needs,
-                   "remove it, or set control.mode = \"current\", \"speed\" or \"position\""});
+                   "remove this key, or set control.mode = \"current\", \"speed\" or \"position\""});
   if (p.brake_current_A > 0 && !has_current_loop)
     out.push_back({"protection.brake_current_A", written(p.brake_current_A), needs,
-                   "remove it, or set control.mode = \"current\", \"speed\" or \"position\""});
+                   "remove this key, or set control.mode = \"current\", \"speed\" or \"position\""});
   if (p.off_at_s && !(*p.off_at_s < s.duration_s))
     out.push_back({"protection.off_at_s", written(*p.off_at_s),
                    "is not before the end of the run (duration_s = " + written(s.duration_s) + ")",
@@ -112,7 +114,7 @@ void check_advance(const Scenario& s, base::Problems& out) {
   if (a.angle_deg > a.limit_deg)
     out.push_back({"control.advance.angle_deg", written(a.angle_deg),
                    "is above limit_deg = " + written(a.limit_deg) + ", which limits the advance",
-                   "lower it, or raise limit_deg"});
+                   "lower this value, or raise limit_deg"});
 }
 
 /// If a sector is shorter than hall_stable_samples samples, the drive does not detect it, and the next Hall
@@ -127,7 +129,7 @@ void check_hall_filter(const Scenario& s, const design::MotorModel& motor, base:
   out.push_back(
       {"sensors.hall_stable_samples", std::to_string(s.sensors.hall_stable_samples),
        "last longer than a sector, " + sector + " s at protection.over_speed_rad_s = " + written(*fastest),
-       most >= 2 ? "lower it to " + written(most) + " at most, or lower over_speed_rad_s"
+       most >= 2 ? "lower this value to " + written(most) + " at most, or lower over_speed_rad_s"
                  : "set it to 1, shorten pwm.period_s, or lower over_speed_rad_s"});
 }
 
@@ -137,7 +139,7 @@ void check_braking(const Scenario& s, base::Problems& out) {
     out.push_back({"protection.brake_current_A", written(p.brake_current_A),
                    "is not below protection.over_current_A = " + written(*p.over_current_A) +
                        ": braking would trip the drive",
-                   "lower it"});
+                   "lower this value"});
 }
 
 /// Refuses keys that only the product drive has: the lean drive reads sector and edges directly.
@@ -151,10 +153,10 @@ void check_lean(const Scenario& s, base::Problems& out) {
       p.stall_s || p.off_at_s || p.align.current_A || p.brake_current_A > 0)
     refuse("protection", "", "is checked by the product drive only", "remove [protection]");
   if (advances(s.control.advance))
-    refuse("control.advance", "", "applies to the product drive only", "remove it");
+    refuse("control.advance", "", "applies to the product drive only", "remove this key");
   if (s.sensors.hall_stable_samples > 1)
     refuse("sensors.hall_stable_samples", std::to_string(s.sensors.hall_stable_samples),
-           "applies to the product drive only", "remove it");
+           "applies to the product drive only", "remove this key");
 }
 
 }  // namespace
@@ -198,17 +200,17 @@ void check_deadbeat(const CurrentLoop& loop, base::Problems& out) {
   };
   if (loop.type != CurrentLoopType::deadbeat) {
     refuse(loop.correction.has_value(), "correction", "applies to a deadbeat loop only",
-           "set type = \"deadbeat\", or remove it");
+           "set type = \"deadbeat\", or remove this key");
     return;
   }
   const char* const whole = "has no effect in a deadbeat loop, which is computed from R, L and the period";
-  refuse(loop.settle_s.has_value(), "settle_s", whole, "remove it, or set type = \"pi\"");
-  refuse(loop.damping.has_value(), "damping", whole, "remove it, or set type = \"pi\"");
+  refuse(loop.settle_s.has_value(), "settle_s", whole, "remove this key, or set type = \"pi\"");
+  refuse(loop.damping.has_value(), "damping", whole, "remove this key, or set type = \"pi\"");
   refuse(loop.d1 || loop.d0, "d1", whole, "remove d1 and d0, or set type = \"pi\"");
   refuse(loop.kp || loop.ki || loop.ki_per_s, "kp", whole,
          "remove kp, ki and ki_per_s, or set type = \"pi\"");
-  refuse(loop.back_emf_feed_forward, "back_emf_feed_forward", "is already part of a deadbeat loop",
-         "remove it");
+  refuse(loop.back_emf_feed_forward, "back_emf_feed_forward",
+         "has no effect, because a deadbeat loop always adds the back-EMF", "remove this key");
 }
 
 /// Refuses duty_step and overlap for a hysteresis, which sets no duty, for a deadbeat loop, whose prediction
@@ -219,7 +221,7 @@ void check_commutation_step(const Scenario& s, base::Problems& out) {
   const auto refuse = [&](bool given, const char* limit, const char* cure) {
     if (given) out.push_back({"control.current.commutation", '"' + word + '"', limit, cure});
   };
-  const char* const leave = "remove it, or set type = \"pi\"";
+  const char* const leave = "remove this key, or set type = \"pi\"";
   refuse(s.control.current.type == CurrentLoopType::hysteresis,
          "sets a duty during a commutation, and a hysteresis has no duty", leave);
   refuse(s.control.current.type == CurrentLoopType::deadbeat,
@@ -235,11 +237,11 @@ void check_pattern(const Scenario& s, base::Problems& out) {
   if (s.pwm.chopping == control::Chopping::hard && !s.control.smooth_chopping.on)
     out.push_back({"pwm.pattern", word,
                    "leaves one switch of the pair on, and pwm.chopping = \"hard\" chops both",
-                   "remove it, or set chopping = \"soft\" or \"complementary\""});
+                   "remove this key, or set chopping = \"soft\" or \"complementary\""});
   if (s.control.current.type == CurrentLoopType::hysteresis)
     out.push_back({"pwm.pattern", word,
                    "applies to a PWM only, and a hysteresis always chops the upper switch",
-                   "remove it, or set control.current.type = \"pi\""});
+                   "remove this key, or set control.current.type = \"pi\""});
 }
 
 }  // namespace
@@ -252,25 +254,26 @@ void check_extras(const Scenario& s, base::Problems& out) {
   if (loop.type == CurrentLoopType::hysteresis && loop.back_emf_feed_forward)
     out.push_back({"control.current.back_emf_feed_forward", "true",
                    "has no effect in a hysteresis, which sets no voltage",
-                   "remove it, or set type = \"pi\""});
+                   "remove this key, or set type = \"pi\""});
   if (loop.type == CurrentLoopType::hysteresis && loop.feedback != CurrentFeedback::mean)
     out.push_back(
         {"control.current.feedback", "\"staying-phase\"",
          "applies to a PI or deadbeat loop; a hysteresis reads the current that control.current.on names",
-         "remove it, or set type = \"pi\""});
+         "remove this key, or set type = \"pi\""});
   if (loop.type == CurrentLoopType::hysteresis && loop.measured_bus_from_V)
     out.push_back({"control.current.measured_bus_from_V", written(*loop.measured_bus_from_V),
-                   "has no effect in a hysteresis, which has no duty", "remove it, or set type = \"pi\""});
+                   "has no effect in a hysteresis, which has no duty",
+                   "remove this key, or set type = \"pi\""});
   if (s.control.limits.gain_A_s_per_rad && !s.control.limits.speed_rad_s)
     out.push_back({"control.limits.gain_A_s_per_rad", written(*s.control.limits.gain_A_s_per_rad),
                    "has no effect without control.limits.speed_rad_s",
-                   "add control.limits.speed_rad_s, or remove it"});
+                   "add control.limits.speed_rad_s, or remove this key"});
   const SmoothChopping& smooth = s.control.smooth_chopping;
   if (smooth.soft_above_A && smooth.complementary_below_A &&
       !(*smooth.soft_above_A > *smooth.complementary_below_A))
     out.push_back({"control.smooth_chopping.soft_above_A", written(*smooth.soft_above_A),
                    "must lie above complementary_below_A = " + written(*smooth.complementary_below_A),
-                   "raise it"});
+                   "raise this value"});
 }
 
 }  // namespace sixstep::study

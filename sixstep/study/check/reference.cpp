@@ -54,21 +54,23 @@ void check_strays(const Place& p) {
       p.say(
           key.key, "", "has no effect with " + p.shape(),
           "set shape = " + readers_of(key) +
-              ", or remove it; if an extended file has it, reference = { .. } replaces all keys of that file's reference");
+              ", or remove this key; if an extended file has it, reference = { .. } replaces all keys of that file's reference");
   if (p.r.shape == Shape::csv && p.r.column && p.r.file.empty() && !p.r.times_s.empty())
     p.say("column", "\"" + *p.r.column + "\"",
           "applies to a file only, and times_s and values are given here",
-          "give file = \"NAME.csv\" instead of times_s and values, or remove it");
+          "give file = \"NAME.csv\" instead of times_s and values, or remove this key");
 }
 
 void check_ramp(const Place& p) {
   const Reference& r = p.r;
-  if (!r.end_s && !r.slope) p.missing("end_s", "give end_s, the time of the final value, or slope, the rate");
+  if (!r.end_s && !r.slope)
+    p.missing("end_s", "give reference.end_s, the time of the final value, or reference.slope, the rate");
   if (r.end_s && r.slope)
-    p.say("slope", written(*r.slope), "contradicts end_s: the rate is given twice", "keep one of the two");
+    p.say("slope", written(*r.slope), "contradicts end_s: both keys determine the rate",
+          "remove reference.slope or reference.end_s");
   if (r.end_s && !(*r.end_s > r.begin_s))
     p.say("end_s", written(*r.end_s), "must be after begin_s = " + written(r.begin_s),
-          "give a later end_s, or set shape = \"steps\" for a jump");
+          "set reference.end_s after begin_s, or set shape = \"steps\" for a jump");
 }
 
 /// A sine with fewer than two samples per period looks like another sine.
@@ -79,7 +81,7 @@ void check_sine(const Place& p) {
   else if (!(p.r.frequency_Hz < most_Hz))
     p.say("frequency_Hz", written(p.r.frequency_Hz),
           "must be below half the controller's sampling rate, " + written(most_Hz) + " Hz",
-          "lower it, or shorten pwm.period_s");
+          "lower this value, or shorten pwm.period_s");
 }
 
 void check_trapezoid(const Place& p) {
@@ -91,7 +93,7 @@ void check_trapezoid(const Place& p) {
 void check_square(const Place& p) {
   if (p.left_s / (p.r.period_s / 2) > most_half_periods)
     p.say("period_s", written(p.r.period_s), "is too short: the run would have more than a million periods",
-          "lengthen it, or shorten duration_s");
+          "lengthen this value, or shorten duration_s");
 }
 
 void check_rows(const Place& p) {
@@ -174,7 +176,7 @@ void check_steps(const std::vector<double>& times, const std::vector<double>& va
     out.push_back(
         {table + "." + value_key, std::to_string(values.size()) + " entries",
          std::string("must be as many as ") + times_key + ", which has " + std::to_string(times.size()),
-         "give one value per time"});
+         "give one value for each time in times_s"});
   constexpr std::size_t most_told = 5;  // limits the messages: a list in falling order would cause one
                                         // message per entry
   for (std::size_t n = 0, before = out.size(); n < times.size() && out.size() < before + most_told; ++n) {

@@ -28,21 +28,24 @@ void check_sensorless_loops(const Scenario& s, base::Problems& out) {
          "set control.mode = \"speed\", \"current\" or \"duty\", or control.drive = \"lean\" with a sensor in sensors.rotor"});
   if (s.control.current.type == CurrentLoopType::hysteresis)
     out.push_back({"control.current.type", "\"hysteresis\"",
-                   "switches at any instant, so that no sample of the terminals is sure to lie in an on-time",
+                   "switches at any instant, so a sample of the terminals may lie outside an on-time",
                    "set type = \"pi\""});
   if (s.control.current.type == CurrentLoopType::deadbeat)
     out.push_back({"control.current.type", "\"deadbeat\"",
-                   "predicts by Hall sectors, and the sensorless drive starts without them",
+                   "predicts with Hall sectors, which the sensorless drive does not have at its start",
                    "set type = \"pi\""});
   if (s.pwm.pattern != control::PwmPattern::upper)
     out.push_back({"pwm.pattern", std::string(base::word(pattern_choices, s.pwm.pattern)),
-                   "needs Hall sectors, and the sensorless drive starts without them", "remove it"});
+                   "needs Hall sectors, which the sensorless drive does not have at its start",
+                   "remove this key"});
   if (s.control.current.feedback != CurrentFeedback::mean)
     out.push_back({"control.current.feedback", "\"staying-phase\"",
-                   "needs Hall sectors, and the sensorless drive starts without them", "remove it"});
+                   "needs Hall sectors, which the sensorless drive does not have at its start",
+                   "remove this key"});
   if (s.control.current.commutation != CurrentCommutation::plain)
     out.push_back({"control.current.commutation", "",
-                   "needs Hall sectors, and the sensorless drive starts without them", "remove it"});
+                   "needs Hall sectors, which the sensorless drive does not have at its start",
+                   "remove this key"});
 }
 
 void check_source(const Scenario& s, base::Problems& out) {
@@ -50,7 +53,7 @@ void check_source(const Scenario& s, base::Problems& out) {
   if (rotor != RotorSensing::ideal && rotor != RotorSensing::hall)
     out.push_back({"sensors.rotor", std::string(base::word(rotor_sensing_choices, rotor)),
                    "is not supported by the sensorless drive, which reads Hall probes or no sensor",
-                   "remove it, set rotor = \"hall\", or control.drive = \"lean\""});
+                   "remove this key, set rotor = \"hall\", or control.drive = \"lean\""});
   const bool asked = s.control.sensorless.commutates == Commutates::hall;
   if (asked && rotor != RotorSensing::hall)
     out.push_back({"control.sensorless.commutates", "\"hall\"",
@@ -71,8 +74,8 @@ void check_others(const Scenario& s, base::Problems& out) {
   if (s.sensors.bus_bandwidth_Hz && control::observes(s.control.sensorless.follows))
     out.push_back(
         {"sensors.bus_bandwidth_Hz", base::written(*s.sensors.bus_bandwidth_Hz),
-         "also filters the terminal voltages. After a diode turns off, their sample is wrong by up to half the bus voltage, and an observer keeps this error for some periods",
-         "remove it, or set control.sensorless.follows = \"crossings\""});
+         "also filters the terminal voltages. After a diode turns off, a sample of a terminal voltage is wrong by up to half the bus voltage, and an observer keeps this error for some periods",
+         "remove this key, or set control.sensorless.follows = \"crossings\""});
   if (s.sheet.kind == design::MotorKind::linear)
     out.push_back({"control.drive", "\"sensorless\"",
                    "applies to rotary motors only, and this motor is linear",
@@ -84,21 +87,22 @@ void check_terminals(const Scenario& s, base::Problems& out) {
   const auto three = [&](const char* key, const std::vector<double>& values) {
     if (!values.empty() && values.size() != 3)
       out.push_back({key, std::to_string(values.size()) + " values",
-                     "must be 3, one for each terminal a, b, c", "give 3 values, or remove it"});
+                     "must have 3 values, one for each terminal a, b, c",
+                     "give 3 values, or remove this key"});
   };
   three("sensors.terminal_gain_error", s.sensors.terminal_gain_error);
   three("sensors.comparators.offset_V", s.sensors.comparators.offset_V);
   if (s.sensors.comparators != Comparators{} && s.control.sensorless.follows != control::Follow::comparators)
     out.push_back({"sensors.comparators", "",
                    "has no effect, because control.sensorless.follows is not \"comparators\"",
-                   "set control.sensorless.follows = \"comparators\", or remove it"});
+                   "set control.sensorless.follows = \"comparators\", or remove this key"});
 }
 
 /// Refuses keys of the terminals for a drive that does not measure them.
 void check_no_terminals(const Scenario& s, base::Problems& out) {
   const auto refuse = [&](const std::string& key) {
     out.push_back({key, "", "applies to the terminals, which only the sensorless drive measures",
-                   "set control.drive = \"sensorless\", or remove it"});
+                   "set control.drive = \"sensorless\", or remove this key"});
   };
   if (!s.sensors.terminal_gain_error.empty()) refuse("sensors.terminal_gain_error");
   if (s.sensors.comparators != Comparators{}) refuse("sensors.comparators");
@@ -113,7 +117,7 @@ void check_sensorless(const Scenario& s, base::Problems& out) {
   if (s.control.drive != FirmwareKind::sensorless) {
     if (s.control.sensorless != Sensorless{})
       out.push_back({"control.sensorless", "", "applies to the sensorless drive only",
-                     "set control.drive = \"sensorless\", or remove it"});
+                     "set control.drive = \"sensorless\", or remove this key"});
     check_no_terminals(s, out);
     return;
   }

@@ -18,12 +18,14 @@ void check_currents(const Scenario& s, base::Problems& out) {
   const Sensors& sensors = s.sensors;
   if (sensors.currents == CurrentMeasurement::ideal) return;
   if (!sensors.current_range_A)
-    out.push_back({"sensors.current_range_A", "", "is missing: the converter of the currents needs its range",
-                   "give the current at the converter's full scale, or currents = \"ideal\""});
+    out.push_back(
+        {"sensors.current_range_A", "", "is missing: the converter of the currents needs its range",
+         "give sensors.current_range_A, the current at the converter's full scale, or set currents = \"ideal\""});
   else if (std::fabs(sensors.current_offset_A) >= *sensors.current_range_A)
     out.push_back({"sensors.current_offset_A", base::written(sensors.current_offset_A),
-                   "leaves no range within current_range_A = " + base::written(*sensors.current_range_A),
-                   "lower it, or raise current_range_A"});
+                   "leaves no measuring range within sensors.current_range_A = " +
+                       base::written(*sensors.current_range_A),
+                   "lower this value, or raise current_range_A"});
   const bool samples_in_middle = s.pwm.sample == SampleAt::middle;
   if (sensors.currents == CurrentMeasurement::dc_link && !samples_in_middle)
     out.push_back(
@@ -65,7 +67,7 @@ void check_front_end(const Scenario& s, base::Problems& out) {
   if (s.sensors.current_delay_s >= s.pwm.period_s)
     out.push_back({"sensors.current_delay_s", base::written(s.sensors.current_delay_s),
                    "must be below pwm.period_s = " + base::written(s.pwm.period_s),
-                   "lower it, or lengthen pwm.period_s"});
+                   "lower this value, or lengthen pwm.period_s"});
 }
 
 void check_bits(const Scenario& s, base::Problems& out) {
@@ -99,10 +101,11 @@ void check_probe_edges(const Scenario& s, const std::optional<design::MotorModel
   const std::vector<double>& own = x.hall_edges_deg;
   const std::size_t all = motor ? 6 * static_cast<std::size_t>(motor->machine.pole_pairs) : own.size();
   if (!own.empty() && own.size() != 6 && own.size() != all)
-    return out.push_back({"sensors.hall_edges_deg", std::to_string(own.size()) + " values",
-                          "must be 6, the edges of an electrical turn, or " + std::to_string(all) +
-                              ", the edges of a mechanical turn",
-                          "give 6 or " + std::to_string(all) + " values"});
+    return out.push_back(
+        {"sensors.hall_edges_deg", "",
+         "has " + std::to_string(own.size()) + " values, and must have 6 (edges of an electrical turn)" +
+             (all > 6 ? " or " + std::to_string(all) + " (edges of a mechanical turn)" : ""),
+         "give 6 " + (all > 6 ? "or " + std::to_string(all) + " " : std::string()) + "values"});
   for (std::size_t n = 0; n < own.size(); ++n) {
     const std::size_t next = (n + 1) % own.size();
     const double gap = 60 + own[next] - own[n] - x.hall_hysteresis_deg;
@@ -111,7 +114,7 @@ void check_probe_edges(const Scenario& s, const std::optional<design::MotorModel
           {"sensors.hall_edges_deg[" + std::to_string(next) + "]", base::written(own[next]),
            "is " + base::written(gap) +
                " deg after the previous edge, with the hysteresis subtracted; at least 1 deg is needed",
-           "give angles that keep the order of the edges"});
+           "change the angles so that each edge is at least 1 deg after the previous edge"});
   }
 }
 
@@ -120,7 +123,7 @@ void check_probes(const Scenario& s, const std::optional<design::MotorModel>& mo
   if (s.sensors.hall_glitches_Hz * s.duration_s > most_glitches)
     out.push_back({"sensors.hall_glitches_Hz", base::written(s.sensors.hall_glitches_Hz),
                    "makes more than 100000 glitches in duration_s = " + base::written(s.duration_s),
-                   "lower one of them"});
+                   "lower sensors.hall_glitches_Hz or duration_s"});
 }
 
 }  // namespace
@@ -133,12 +136,14 @@ void check_sensors(const Scenario& s, const std::optional<design::MotorModel>& m
   check_hall(s, out);
   check_probes(s, motor, out);
   if (s.sensors.bus == BusSensing::adc && !s.sensors.bus_range_V)
-    out.push_back({"sensors.bus_range_V", "", "is missing: the converter of the bus voltage needs its range",
-                   "give the voltage at the converter's upper end, or set bus = \"ideal\""});
+    out.push_back(
+        {"sensors.bus_range_V", "", "is missing: the converter of the bus voltage needs its range",
+         "give sensors.bus_range_V, the voltage at the converter's upper end, or set bus = \"ideal\""});
   const CurrentLoop& c = s.control.current;
   if (s.pwm.sample == SampleAt::middle && c.type == CurrentLoopType::hysteresis &&
       c.comparator == Comparator::event)
-    out.push_back({"pwm.sample", "\"middle\"", "has no meaning for event comparators",
+    out.push_back({"pwm.sample", "\"middle\"",
+                   "has no effect with comparator = \"event\", which needs no sample",
                    "set sample = \"start\", or comparator = \"sampled\""});
 }
 

@@ -27,9 +27,9 @@ void check_resolver(const Scenario& s, const std::optional<design::MotorModel>& 
   const std::optional<int>& believed = s.believed.pole_pairs;
   if (believed && commutates && *believed % r.pole_pairs != 0)
     out.push_back({"believed.pole_pairs", std::to_string(*believed),
-                   "is no multiple of the resolver's " + std::to_string(r.pole_pairs) +
+                   "is not a multiple of the resolver's " + std::to_string(r.pole_pairs) +
                        ": the drive could not convert its angle to the motor's electrical angle",
-                   "use a multiple, or another sensors.resolver.pole_pairs"});
+                   "set believed.pole_pairs to a multiple, or change sensors.resolver.pole_pairs"});
   if (motor && !believed && commutates && std::fmod(motor->machine.pole_pairs, r.pole_pairs) != 0)
     wrong("pole_pairs", std::to_string(r.pole_pairs),
           "does not divide the motor's " + base::written(motor->machine.pole_pairs) +
@@ -46,22 +46,23 @@ void check_resolver(const Scenario& s, const std::optional<design::MotorModel>& 
     wrong("bandwidth_Hz", base::written(r.bandwidth_Hz),
           std::string("must be below half the rate of ") + (sampled ? "the peaks, " : "the chip's clock, ") +
               base::written(0.5 / step_s) + " Hz",
-          sampled ? "lower it, or raise excitation_Hz" : "lower it, or raise converter_Hz");
+          sampled ? "lower this value, or raise excitation_Hz" : "lower this value, or raise converter_Hz");
   if (sampled) return;
   if (r.calibrated)
     wrong("calibrated", "true",
           "applies to the drive's own decoder, and a converter chip reads this resolver",
-          "set reading = \"sampled\", or remove it");
+          "set reading = \"sampled\", or remove this key");
   if (r.bits < least_converter_bits)
-    wrong("bits", std::to_string(r.bits), "is fewer than any converter chip has", "use 10, 12, 14 or 16");
+    wrong("bits", std::to_string(r.bits), "is fewer bits than any converter chip has",
+          "use 10, 12, 14 or 16");
   if (r.latency_s >= s.pwm.period_s)
     wrong("latency_s", base::written(r.latency_s),
           "must be below pwm.period_s = " + base::written(s.pwm.period_s),
-          "lower it, or lengthen pwm.period_s");
+          "lower this value, or lengthen pwm.period_s");
   if (s.duration_s * r.converter_Hz > most_clocks)
     wrong("converter_Hz", base::written(r.converter_Hz),
           "makes more than 1e9 steps of the converter chip in duration_s = " + base::written(s.duration_s),
-          "lower one of them");
+          "lower one of the two values");
 }
 
 /// Refuses sensors.hall_angle if the drive does not compute speed and position from captured Hall edges.
@@ -73,7 +74,7 @@ void check_hall_angle(const Scenario& s, base::Problems& out) {
   if (s.sensors.rotor != RotorSensing::hall)
     out.push_back({"sensors.hall_angle", word,
                    "applies to Hall probes only, and sensors.rotor is not \"hall\"",
-                   "set rotor = \"hall\", or remove it"});
+                   "set rotor = \"hall\", or remove this key"});
   else if (s.control.drive == FirmwareKind::product)
     out.push_back({"sensors.hall_angle", word,
                    "does not apply to the product drive, which commutates by sectors",
@@ -88,9 +89,9 @@ void check_shaft_events(const Scenario& s, base::Problems& out) {
     const auto of = [&](const char* key, RotorSensing sensor, const char* name) {
       if (s.sensors.rotor != sensor)
         out.push_back({where + key, "",
-                       std::string("applies to ") + name + " only, and sensors.rotor is another",
+                       std::string("applies to ") + name + " only, and sensors.rotor selects another sensor",
                        "set sensors.rotor = \"" + std::string(base::word(rotor_sensing_choices, sensor)) +
-                           "\", or remove it"});
+                           "\", or remove this key"});
     };
     if (at.missed_edges) of("missed_edges", RotorSensing::encoder, "an encoder");
     if (at.encoder_line) of("encoder_line", RotorSensing::encoder, "an encoder");
@@ -102,7 +103,7 @@ void check_shaft_events(const Scenario& s, base::Problems& out) {
     if (at.bad_track->track > s.sensors.absolute.bits)
       out.push_back({where + "bad_track.track", std::to_string(at.bad_track->track),
                      "is more than sensors.absolute.bits = " + std::to_string(s.sensors.absolute.bits),
-                     "name an existing track"});
+                     "name a track from 1 to sensors.absolute.bits"});
   }
 }
 
@@ -121,7 +122,7 @@ void check_lines(const Scenario& s, base::Problems& out) {
                    "give sensors.encoder.pitch_mm instead"});
   if (!e.pitch_mm)
     out.push_back({"sensors.encoder.pitch_mm", "", "is missing: this motor is linear",
-                   "give the length of one line of the scale"});
+                   "give sensors.encoder.pitch_mm, the length of one line of the scale"});
   if (!e.pitch_mm || !s.sheet.pole_pitch_mm) return;
   const double lines = lines_to_period(s), whole = std::floor(lines + 0.5);
   if (whole >= 1 && whole <= 1e6 && std::fabs(lines - whole) <= 1e-9 * whole) return;
@@ -138,7 +139,7 @@ void check_encoder(const Scenario& s, base::Problems& out) {
   if (s.sensors.encoder.missed_Hz * s.duration_s > most_missed)
     out.push_back({"sensors.encoder.missed_Hz", base::written(s.sensors.encoder.missed_Hz),
                    "misses more than 100000 edges in duration_s = " + base::written(s.duration_s),
-                   "lower one of them"});
+                   "lower one of the two values"});
 }
 
 /// For a linear motor: refuses an absolute encoder, a resolver, and an encoder at the load, because they need
@@ -173,7 +174,7 @@ void check_shaft_sensor(const Scenario& s, const std::optional<design::MotorMode
     out.push_back({"sensors." + word + ".offset_deg", base::written(mounting_offset_deg(s.sensors)),
                    "is an electrical angle of the motor, and this sensor is on the load's shaft, where the "
                    "Hall probes commutate",
-                   "remove it, or set sensors.shaft = \"motor\""});
+                   "remove this key, or set sensors.shaft = \"motor\""});
   check_linear(s, word, out);
   const bool pair_moves = s.control.drive != FirmwareKind::field && !answers_legs(s.control.own);
   if (!on_load && pair_moves && s.pwm.commutation != CommutationAt::sample)
@@ -185,7 +186,7 @@ void check_shaft_sensor(const Scenario& s, const std::optional<design::MotorMode
   if (rotor == RotorSensing::absolute && latency_s >= s.pwm.period_s)
     out.push_back({"sensors.absolute.latency_s", base::written(latency_s),
                    "must be below pwm.period_s = " + base::written(s.pwm.period_s),
-                   "lower it, or lengthen pwm.period_s"});
+                   "lower this value, or lengthen pwm.period_s"});
   if (rotor == RotorSensing::resolver) check_resolver(s, motor, out);
 }
 

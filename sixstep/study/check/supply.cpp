@@ -18,27 +18,29 @@ void check_brake(const Supply& s, bool has_capacitor, base::Problems& out) {
       out.push_back({s.brake_on_V > 0 ? "supply.brake_on_V" : "supply.brake_off_V",
                      base::six_digits(s.brake_on_V > 0 ? s.brake_on_V : s.brake_off_V),
                      "has no effect without supply.brake_resistance_ohm",
-                     "give supply.brake_resistance_ohm, or remove it"});
+                     "give supply.brake_resistance_ohm, or remove this key"});
     return;
   }
   if (!has_capacitor)
-    out.push_back({"supply.brake_resistance_ohm", base::six_digits(R), "needs a bus whose voltage can rise",
+    out.push_back({"supply.brake_resistance_ohm", base::six_digits(R),
+                   "needs a bus with a capacitor, whose voltage can rise",
                    "give supply.resistance_ohm and supply.capacitance_F"});
   if (!(s.brake_on_V > s.brake_off_V) || !(s.brake_off_V > 0))
     out.push_back(
         {"supply.brake_on_V", base::six_digits(s.brake_on_V),
          "must be above supply.brake_off_V = " + base::six_digits(s.brake_off_V) + ", which must be above 0",
-         "give both, for example brake_on_V = 30 and brake_off_V = 28"});
+         "give both keys, for example brake_on_V = 30 and brake_off_V = 28"});
   else if (const double open_V = highest_open_V(s); !(s.brake_off_V > open_V))
     out.push_back({"supply.brake_off_V", base::six_digits(s.brake_off_V),
                    (s.source == SourceKind::steady ? "must be above supply.voltage_V = "
                                                    : "must be above the source's open-circuit voltage, ") +
                        base::six_digits(open_V),
-                   "raise it: else the resistor would never turn off"});
+                   "raise this value: else the resistor would never turn off"});
   else if (const double falls = s.brake_on_V * s.capacitor_resistance_ohm / (s.capacitor_resistance_ohm + R);
            !(falls < s.brake_on_V - s.brake_off_V))
     out.push_back({"supply.brake_off_V", base::six_digits(s.brake_off_V),
-                   "is reached at once: the resistor draws " + base::six_digits(falls) +
+                   "is reached as soon as the resistor turns on: the resistor draws " +
+                       base::six_digits(falls) +
                        " V across supply.capacitor_resistance_ohm, and the bus falls below brake_off_V",
                    "lower brake_off_V or supply.capacitor_resistance_ohm"});
 }
@@ -72,16 +74,16 @@ void check_battery(const Supply& s, base::Problems& out) {
   for (std::size_t n = 0; n + 1 < s.battery_charges.size(); ++n)
     if (!(s.battery_charges[n + 1] > s.battery_charges[n])) {
       out.push_back({"supply.battery_charges[" + std::to_string(n + 1) + "]",
-                     base::six_digits(s.battery_charges[n + 1]), "must be above the charge before",
-                     "sort the charges, from empty to full"});
+                     base::six_digits(s.battery_charges[n + 1]), "must be above the previous charge",
+                     "sort battery_charges and battery_voltages_V from empty to full"});
       break;
     }
   if (!(s.battery_capacity_Ah > 0))
-    out.push_back(
-        {"supply.battery_capacity_Ah", "", "is missing", "give the charge of the full battery in Ah"});
+    out.push_back({"supply.battery_capacity_Ah", "", "is missing",
+                   "give supply.battery_capacity_Ah, the charge of the full battery"});
   if ((s.battery_recovery_ohm > 0) != (s.battery_recovery_F > 0))
     out.push_back({"supply.battery_recovery_ohm", base::six_digits(s.battery_recovery_ohm),
-                   "and supply.battery_recovery_F belong together", "give both, or none"});
+                   "and supply.battery_recovery_F belong together", "give both keys, or remove both"});
   if (out.empty()) check_nominal(s, out);
 }
 
@@ -95,13 +97,14 @@ void check_mains(const Supply& s, base::Problems& out) {
     if (s.rectifier_drop_V > 0)
       out.push_back({"supply.rectifier_drop_V", base::six_digits(s.rectifier_drop_V),
                      "applies to rectified mains only, and supply.source is another source",
-                     "write source = \"single-phase\" or \"three-phase\", or remove it"});
+                     "write source = \"single-phase\" or \"three-phase\", or remove this key"});
     return;
   }
   if (!(highest_open_V(s) > 0))
-    out.push_back({"supply.mains_rms_V", base::six_digits(s.mains_rms_V),
-                   "is below the forward drop of the rectifier's diodes",
-                   "give the rms voltage, for example 230, or 400 between two lines of three phases"});
+    out.push_back(
+        {"supply.mains_rms_V", base::six_digits(s.mains_rms_V),
+         "is below the forward drop of the rectifier's diodes",
+         "give supply.mains_rms_V, the rms voltage of the mains: for example 230, or 400 between two lines of three phases"});
   else
     check_nominal(s, out);
 }
@@ -112,25 +115,24 @@ void check_supply(const Scenario& s, base::Problems& out) {
   const bool R = s.supply.resistance_ohm > 0, C = s.supply.capacitance_F > 0;
   if (R && !C)
     out.push_back({"supply.resistance_ohm", base::six_digits(s.supply.resistance_ohm),
-                   "needs a bus capacitor behind it",
-                   "add supply.capacitance_F, or remove both for a stiff bus"});
+                   "needs a bus capacitor", "add supply.capacitance_F, or remove both keys for a stiff bus"});
   if (C && !R)
     out.push_back({"supply.capacitance_F", base::six_digits(s.supply.capacitance_F),
                    "needs the source's resistance",
-                   "add supply.resistance_ohm, or remove both for a stiff bus"});
+                   "add supply.resistance_ohm, or remove both keys for a stiff bus"});
   if (!s.supply.sinks && !(R && C))
-    out.push_back({"supply.sinks", "false", "needs a bus whose voltage can rise",
+    out.push_back({"supply.sinks", "false", "needs a bus with a capacitor, whose voltage can rise",
                    "give supply.resistance_ohm and supply.capacitance_F"});
   if (s.supply.inductance_H > 0 && !(R && C))
-    out.push_back({"supply.inductance_H", base::six_digits(s.supply.inductance_H),
-                   "needs a bus capacitor behind it", "give supply.resistance_ohm and supply.capacitance_F"});
+    out.push_back({"supply.inductance_H", base::six_digits(s.supply.inductance_H), "needs a bus capacitor",
+                   "give supply.resistance_ohm and supply.capacitance_F"});
   if (s.supply.capacitor_resistance_ohm > 0 && !C)
     out.push_back({"supply.capacitor_resistance_ohm", base::six_digits(s.supply.capacitor_resistance_ohm),
                    "needs supply.capacitance_F, which is not given",
                    "give supply.resistance_ohm and supply.capacitance_F"});
   if (s.supply.sink_limit_A > 0 && s.supply.sinks)
     out.push_back({"supply.sink_limit_A", base::six_digits(s.supply.sink_limit_A),
-                   "has no effect while supply.sinks = true", "set sinks = false, or remove it"});
+                   "has no effect while supply.sinks = true", "set sinks = false, or remove this key"});
   check_brake(s.supply, C, out);
   check_battery(s.supply, out);
   check_mains(s.supply, out);
@@ -138,8 +140,8 @@ void check_supply(const Scenario& s, base::Problems& out) {
     out.push_back({"supply.source", "", "needs supply.resistance_ohm and a bus capacitor",
                    "give supply.resistance_ohm and supply.capacitance_F"});
   if (s.initial.bus_V && !C)
-    out.push_back({"initial.bus_V", base::six_digits(*s.initial.bus_V), "has no meaning on a stiff bus",
-                   "remove it, or give supply.resistance_ohm and supply.capacitance_F"});
+    out.push_back({"initial.bus_V", base::six_digits(*s.initial.bus_V), "has no effect on a stiff bus",
+                   "remove this key, or give supply.resistance_ohm and supply.capacitance_F"});
 }
 
 }  // namespace sixstep::study

@@ -50,7 +50,7 @@ void unused_beliefs(const Scenario& s, Unused& out) {
     out.add("believed.hall_lines", b.hall_lines, rig::WireOrder::abc, "the drive does not read Hall probes");
   if (computes_with_motor(s)) return;
   if (s.sensors.rotor == RotorSensing::ideal && s.pwm.pattern == control::PwmPattern::upper)
-    out.add("believed.pole_pairs", b.pole_pairs, {}, "the drive computes nothing by them");
+    out.add("believed.pole_pairs", b.pole_pairs, {}, "the drive does not compute with these values");
   const bool speed = comes_into(s, Mode::speed) || comes_into(s, Mode::position);
   constexpr char no_speed[] = "control.mode has no speed loop";
   if (!speed) idle("inertia_gcm2", b.inertia_gcm2, no_speed);
@@ -62,7 +62,7 @@ void unused_beliefs(const Scenario& s, Unused& out) {
                                      std::pair("speed_constant_rpm_V", &b.speed_constant_rpm_V)})
       idle(key, *given, no_speed);
   if (!leaves_winding(s)) return;
-  constexpr char no_loop[] = "no current loop is designed by it";
+  constexpr char no_loop[] = "no current loop is designed with this value";
   idle("resistance_ohm", b.resistance_ohm, no_loop);
   idle("inductance_mH", b.inductance_mH, no_loop);
 }

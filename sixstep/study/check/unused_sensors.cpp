@@ -94,7 +94,7 @@ void unused_of_sensors(const Scenario& s, Unused& out) {
   }
   if (x.hall_angle != rig::HallAngleFrom::learned_edges)
     out.add("sensors.hall_calibration_turns", x.hall_calibration_turns, usual.hall_calibration_turns,
-            "sensors.hall_angle learns no edges");
+            "sensors.hall_angle is not calibrated");
 }
 
 }  // namespace sixstep::study

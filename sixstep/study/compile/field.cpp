@@ -117,10 +117,10 @@ base::Result<FieldAround> field_around(const Scenario& s, const Basis& basis,
   c.magnet_V_s = machine.magnet_V_s;
   c.R_ohm = machine.R_ohm;
   if (const double most = design::most_weakening_A(machine); wanted.weakening_A.value_or(0.0) > most)
-    return base::Problem{
-        "control.field.weakening_A", base::written(*wanted.weakening_A),
-        "is more than psi/L_d = " + base::rounded(most, 4) + " A; above it more current needs more voltage",
-        "lower it"};
+    return base::Problem{"control.field.weakening_A", base::written(*wanted.weakening_A),
+                         "is more than psi/L_d = " + base::rounded(most, 4) +
+                             " A; above this current, weakening needs more voltage instead of less",
+                         "lower this value to psi/L_d or less"};
   if (wanted.weakening_A)
     out.config.weakening = {design::weakening_gain(machine, basis.bus_V, loop_spec(s)),
                             design::usual_weakening_part, *wanted.weakening_A};

@@ -32,11 +32,15 @@ void check_converter(const Scenario& s, const control::DriveConfig<double>& driv
   const double read =
       range - 2 * range / std::ldexp(1.0, sensors.adc_bits) - std::fabs(sensors.current_offset_A);
   if (asked < read) return;
+  const double enough = base::shortened((asked + std::fabs(sensors.current_offset_A)) /
+                                            (1 - 2 / std::ldexp(1.0, sensors.adc_bits)) * (1 + 1e-9),
+                                        3, base::Towards::up);
   out.push_back({"sensors.current_range_A", base::three_digits(range),
-                 "lets the converter read up to " + base::three_digits(read) + " A, but the drive " +
-                     (limited ? "turns off above " : "may command ") + base::three_digits(asked) + " A",
-                 s.control.mode == Mode::current ? "raise it, or lower the reference"
-                                                 : "raise it, or lower control.current.limit_A"});
+                 "lets the converter read up to " + base::three_digits(read) + " A, and the drive " +
+                     (limited ? "turns off only above " : "may command ") + base::three_digits(asked) + " A",
+                 "raise this value to " + base::three_digits(enough) +
+                     (s.control.mode == Mode::current ? " A or more, or lower the reference"
+                                                      : " A or more, or lower control.current.limit_A")});
 }
 
 /// Refuses limits with shunts: one in the DC link does not show a current that flows through the lower
@@ -49,7 +53,7 @@ void check_shunt(const Scenario& s, base::Problems& out) {
       out.push_back({key, base::three_digits(*value),
                      std::string("needs the current of every phase, and ") +
                          (link ? "a DC-link shunt does" : "low-side shunts do") + " not measure all of them",
-                     "set sensors.currents = \"phases\", or remove it"});
+                     "set sensors.currents = \"phases\", or remove this key"});
   };
   refuse("control.limits.current_A", s.control.limits.current_A);
   refuse("control.limits.torque_Nm", s.control.limits.torque_Nm);
@@ -105,7 +109,7 @@ void check_speed(const Scenario& s, const design::LimitSetting& setting, base::P
       {"control.limits.speed_rad_s", base::three_digits(limit),
        "cannot be held: until the next sample, the drive's own torque may accelerate the rotor to " +
            base::three_digits(most(limit)) + " rad/s",
-       "raise it to " + base::three_digits(least) + ", lower control.limits.current_A" +
+       "raise this value to " + base::three_digits(least) + ", lower control.limits.current_A" +
            (s.sensors.rotor == RotorSensing::hall ? ", or lower sensors.speed_edges"
                                                   : ", or shorten pwm.period_s")});
 }
@@ -118,7 +122,7 @@ void check_bus(const Scenario& s, design::LimitSetting setting, base::Problems& 
     out.push_back({"control.regeneration.limit_V", base::three_digits(*wanted),
                    "must be above the highest voltage of the supply or at the start, " +
                        base::three_digits(from) + " V",
-                   "raise it: below that voltage the drive could never brake"});
+                   "raise this value: with a lower limit the drive could never brake"});
     return;
   }
   // At worst the bus exceeds the limit by as much as the limit exceeds the supply.
@@ -137,7 +141,7 @@ void check_bus(const Scenario& s, design::LimitSetting setting, base::Problems& 
                  "cannot be held: the current in the windings when the drive turns off, up to " +
                      base::three_digits(design::most_current_A(setting)) + " A, may lift the bus to " +
                      base::three_digits(reached) + " V",
-                 "raise it to " + base::three_digits(limit_V) +
+                 "raise this value to " + base::three_digits(limit_V) +
                      (can_store ? " or supply.capacitance_F to " + base::three_digits(C_F) : std::string()) +
                      ", or lower the current limit"});
 }
@@ -149,9 +153,9 @@ void check_saliency(const Scenario& s, const design::Sheet& sheet, base::Problem
     if (value)
       out.push_back(
           {key, base::three_digits(*value),
-           "is guaranteed only for a rotor with equal L_d and L_q, and this rotor's L_q is " +
+           "can be kept only for a rotor with equal L_d and L_q, and this rotor's L_q is " +
                base::three_digits(ratio) + " times its L_d",
-           "remove it, and limit the references: control.current.limit_A, control.speed.torque_limit_Nm"});
+           "remove this key, and limit the references: control.current.limit_A, control.speed.torque_limit_Nm"});
   };
   refuse("control.limits.current_A", s.control.limits.current_A);
   refuse("control.limits.torque_Nm", s.control.limits.torque_Nm);

@@ -192,20 +192,22 @@ GivenGains given_gains(const Loop& loop, double period_s, const std::string& whe
     out.problems.push_back({where + "." + key, "", limit, cure});
   };
   const char* const integral = loop.ki ? "ki" : "ki_per_s";
-  const char* const keep = "keep only one form: d1 and d0, kp with ki or ki_per_s, or settle_s and damping";
+  const char* const keep =
+      "remove all forms of the gains except one: d1 and d0, kp with ki or ki_per_s, or settle_s and damping";
   if (d && (k || rule))
     wrong(loop.d1 ? "d1" : "d0",
-          k ? "contradicts kp and ki or ki_per_s: the same gains are given twice"
+          k ? "contradicts kp and ki or ki_per_s, which give the same gains"
             : "contradicts settle_s and damping, which compute the gains",
           keep);
   else if (k && rule)
     wrong(loop.kp ? "kp" : integral, "contradicts settle_s and damping, which compute the gains", keep);
   else if (d && !(loop.d1 && loop.d0))
-    wrong(loop.d1 ? "d1" : "d0", "is only half of the gains", loop.d1 ? "add d0" : "add d1");
+    wrong(loop.d1 ? "d1" : "d0", "is only one of the two gains", loop.d1 ? "add d0" : "add d1");
   else if (loop.ki && loop.ki_per_s)
-    wrong("ki_per_s", "contradicts ki: the integral is given twice", "keep ki or ki_per_s");
+    wrong("ki_per_s", "contradicts ki: both keys give the integral gain", "remove ki or ki_per_s");
   else if (k && !(loop.kp && (loop.ki || loop.ki_per_s)))
-    wrong(loop.kp ? "kp" : integral, "is only half of the gains", loop.kp ? "add ki or ki_per_s" : "add kp");
+    wrong(loop.kp ? "kp" : integral, "is only one of the two gains",
+          loop.kp ? "add ki or ki_per_s" : "add kp");
   else if (d)
     out = {design::PiGains{*loop.d1, *loop.d0}, "given as d1, d0", {}};
   else if (loop.ki)

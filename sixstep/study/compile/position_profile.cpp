@@ -82,7 +82,8 @@ void add_position_profile(const Scenario& s, const Basis& basis, Tuned& out) {
   const base::Motion motion{s.sheet.kind == design::MotorKind::linear};
   out.gains.back().steps = {
       {"v", "speed of the profile", limits.speed_rad_s, std::string(motion.unit("rad/s").linear)},
-      {"a", "its acceleration", limits.acceleration_rad_s2, std::string(motion.unit("rad/s2").linear)},
+      {"a", "acceleration of the profile", limits.acceleration_rad_s2,
+       std::string(motion.unit("rad/s2").linear)},
       {"a/j", "time in which the acceleration rises, in whole steps", rises_s, "s"},
       {"J a/T", "fraction of the full torque, or of the duty, that the acceleration needs",
        drive.extras.position.feed_forward.per_rad_s2 * limits.acceleration_rad_s2, ""}};
@@ -97,22 +98,22 @@ base::Problems check_position_profile(const Scenario& s, const Basis& basis,
   const double J = basis.shaft.J_kg_m2, most = most_torque_Nm(s, basis, drive);
   if (wanted.acceleration_rad_s2 && !sets_duty(s) && J * *wanted.acceleration_rad_s2 > most)
     out.push_back({"control.position.profile.acceleration_rad_s2", base::written(*wanted.acceleration_rad_s2),
-                   "takes J a = " + base::three_digits(J * *wanted.acceleration_rad_s2) +
-                       " N m, and the drive's limit is " + base::three_digits(most) + " N m",
-                   "lower it to " + base::three_digits(torque_part * most / J) +
+                   "needs a torque J a = " + base::three_digits(J * *wanted.acceleration_rad_s2) +
+                       " N m, and the drive's torque limit is " + base::three_digits(most) + " N m",
+                   "lower this value to " + base::three_digits(torque_part * most / J) +
                        ", or raise control.speed.torque_limit_Nm"});
   const double no_load = reached_rad_s(s, basis, 0.0);
   if (wanted.speed_rad_s && *wanted.speed_rad_s > no_load)
     out.push_back({"control.position.profile.speed_rad_s", base::written(*wanted.speed_rad_s),
                    "is above the no-load speed of the bus, " + base::three_digits(no_load) + " rad/s",
-                   "lower it, or raise supply.voltage_V"});
+                   "lower this value, or raise supply.voltage_V"});
   if (limits.smoothing_s > control::jerk_profile_longest * s.pwm.period_s)
     out.push_back(
         {wanted.jerk_rad_s3 ? "control.position.profile.jerk_rad_s3" : "control.position.profile.smoothing_s",
          base::written(wanted.jerk_rad_s3 ? *wanted.jerk_rad_s3 : limits.smoothing_s),
          "makes the acceleration rise over more than " + base::three_digits(control::jerk_profile_longest) +
              " periods",
-         wanted.jerk_rad_s3 ? "raise it" : "lower it"});
+         wanted.jerk_rad_s3 ? "raise this value" : "lower this value"});
   return out;
 }
 

@@ -25,32 +25,33 @@ LossWords words_of(control::LockLoss loss) {
   switch (loss) {
     case LockLoss::masked_crossing:
       return {"an expected zero crossing did not come",
-              "reduce braking or load, or raise control.sensorless.lowest_part"};
+              "lower the braking current or the load, or raise control.sensorless.lowest_part"};
     case LockLoss::long_demagnetisation:
-      return {"the leaving phase's current hid the crossings", "change the duty or the current more slowly"};
+      return {"the leaving phase's current hid the crossings",
+              "lower control.slew, so that the duty or the current changes more slowly"};
     case LockLoss::wrong_sector:
-      return {"the terminal voltages contradict the sector", "change the load or the supply less suddenly"};
+      return {"the terminal voltages contradict the sector",
+              "change the load torque and the supply voltage more slowly"};
     case LockLoss::terminals:
       return {"the terminals did not follow the bridge's command",
               "check the bridge, the motor's wires and the dividers"};
     case LockLoss::start:
       return {
           "the ramp ended without reliable crossings",
-          "check that the rotor can turn; raise control.sensorless.overload, or greatest_load if the load "
-          "is larger"};
+          "check load.locked and the load torque; raise control.sensorless.overload, or control.sensorless.greatest_load if the load is larger"};
     case LockLoss::none:
       break;
   }
-  return {"the drive lost the rotor's position", "check the load"};
+  return {"the drive lost the rotor's position", "lower the load torque or its steps"};
 }
 
 void note_unseen(const rig::Diagnosis& found, Outcome& out) {
   const std::string times = found.unseen == 1 ? "" : " in " + std::to_string(found.unseen) + " starts";
   out.notes.push_back(
       "the pulses did not show which end of the magnet is north" + times + ": " +
-      base::rounded(found.north, 2) + " times their noise, of at least " + base::rounded(found.certain, 2) +
-      " times. So the drive aligned the rotor. Pulses show north only on a motor that saturates "
-      "(saturation_current_A of its sheet)");
+      base::rounded(found.north, 2) + " times their noise; needed are at least " +
+      base::rounded(found.certain, 2) +
+      " times. So the drive aligned the rotor instead. Pulses show north only on a motor that saturates (saturation_current_A in the motor file)");
 }
 
 /// Reports that a sensorless drive lost the rotor's position: a note if the drive started again, a fault if
@@ -76,12 +77,12 @@ base::Problem lost_sensor(const rig::ShaftFinding& found, double t_s) {
   const std::string part =
       std::to_string(static_cast<int>(std::floor(100 * found.shown + 0.5))) + " % of its amplitude";
   const auto winding = [&](const char* name) -> base::Problem {
-    return {at(t_s), "", "the resolver shows " + part + ", and the " + name + " winding shows nothing",
+    return {at(t_s), "", "the resolver shows " + part + ", and the " + name + " winding has no voltage",
             std::string("check the ") + name + " winding and its wires"};
   };
   switch (found.loss) {
     case ShaftLoss::excitation:
-      return {at(t_s), "", "neither winding of the resolver shows anything: the excitation is lost",
+      return {at(t_s), "", "neither winding of the resolver has a voltage: the excitation is lost",
               "check the excitation and the resolver's wires"};
     case ShaftLoss::cosine:
       return winding("cosine");
@@ -94,10 +95,11 @@ base::Problem lost_sensor(const rig::ShaftFinding& found, double t_s) {
       return {at(t_s), "", "the resolver shows " + part + ", more than an intact resolver",
               "check the excitation and sensors.resolver.amplitude_V"};
     case ShaftLoss::index:
-      return {at(t_s), "",
-              "the encoder's index came with " + std::to_string(found.counts) +
-                  " counts missing, more than a sector of them",
-              "check lines A, B and Z and their disturbances"};
+      return {
+          at(t_s), "",
+          "the encoder's index came with " + std::to_string(found.counts) +
+              " counts missing; a sector has fewer counts",
+          "check the encoder's lines A, B and Z: sensors.encoder.missed_Hz and the [[at]] changes of the sensors"};
     case ShaftLoss::none:
       break;
   }
@@ -125,18 +127,18 @@ base::Problem refused_answer(const rig::OwnFinding& found, double t_s) {
     case OwnWrong::leg:
       return {at(t_s), "",
               answered(found) + (found.value > static_cast<double>(SIXSTEP_LEG_C)
-                                     ? ", which is no leg"
+                                     ? ", which is not a leg"
                                      : ", which is the same leg as source"),
-              "answer source and sink as two of the legs a, b, c"};
+              "let the controller answer source and sink as two different legs of a, b, c"};
     case OwnWrong::choice:
-      return {at(t_s), "", answered(found) + ", which is no value of own_controller.h",
+      return {at(t_s), "", answered(found) + ", which is not a value that own_controller.h defines",
               "use the constants of own_controller.h"};
     case OwnWrong::gave_up:
     case OwnWrong::none:
       break;
   }
   return {at(t_s), "", answered(found) + ": the controller reported a fault",
-          "check which condition in the controller reports it"};
+          "find the condition in the controller that reports this fault"};
 }
 
 base::Problem lost_core(rig::CoreTrouble trouble, double t_s) {
@@ -144,13 +146,13 @@ base::Problem lost_core(rig::CoreTrouble trouble, double t_s) {
   if (trouble == CoreTrouble::differs)
     return {
         at(t_s), "", "the core's answer differs from the host's; both must agree in every bit",
-        "check the core's compiler and flags; if they are the usual ones, report this with the scenario file"};
+        "check the core's compiler and flags; if they are the usual ones, report this message, with the scenario file, in the issues of the repository"};
   if (trouble == CoreTrouble::silent)
     return {at(t_s), "", "the core did not answer in time: its program hangs, or its emulator does",
-            "check the function that was called last"};
+            "debug the function that was called last"};
   if (trouble == CoreTrouble::stalled)
     return {at(t_s), "", "the chip starts no conversion any more: its program hangs or has stopped",
-            "check how the program handles an invalid Hall code, and its waiting loops"};
+            "check the program's waiting loops, and how it handles an invalid Hall code"};
   return {at(t_s), "", "the core ended: its program caused a fault, or its emulator was stopped",
           "check the program's memory accesses and stack"};
 }
@@ -159,20 +161,21 @@ base::Problem lost_core(rig::CoreTrouble trouble, double t_s) {
 
 base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t_s) {
   if (fault == rig::Fault::shoot_through)
-    return {at(t_s), "", "both switches of a leg were on: shoot-through",
-            "check for a shorted switch, and for a command that names one leg twice"};
+    return {
+        at(t_s), "", "both switches of a leg were on: shoot-through",
+        "look for a shorted switch (bridge.shorted_switch), and for a command with the same leg as source and sink"};
   if (fault == rig::Fault::beyond_model)
     return {
         at(t_s), "",
         "the current along the magnet's axis is above half of saturation_current_A, where the model of saturation ends",
-        "reduce the current, or check the sheet's saturation_current_A"};
+        "lower control.current.limit_A, or correct saturation_current_A in the motor file"};
   if (fault == rig::Fault::core) return lost_core(found.core, t_s);
   if (fault == rig::Fault::own_controller) return refused_answer(found.own, t_s);
   if (fault == rig::Fault::north_unseen)
     return {
         at(t_s), "",
         "the injected pulses did not show which end of the magnet is north: " +
-            base::rounded(100 * found.north, 2) + " % of their current, of at least " +
+            base::rounded(100 * found.north, 2) + " % of their current; needed are at least " +
             base::rounded(100 * found.certain, 2) + " %",
         "check that the rotor is at rest and that the motor's wires are intact; raise control.field.injection_V, or check the sheet's saturation_current_A"};
   if (fault == rig::Fault::not_started)
@@ -183,9 +186,12 @@ base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t
         "check that the rotor can turn and that the load is at most T_start of the design; raise control.field.start_current_A, or give the drive a sensor"};
   if (fault == rig::Fault::shaft_sensor) return lost_sensor(found.shaft, t_s);
   const std::string text = "the Hall code is impossible (000 or 111)";
-  if (found.hall_line == 0) return {at(t_s), "", text, "check the probes and their wires"};
+  if (found.hall_line == 0)
+    return {
+        at(t_s), "", text,
+        "check the Hall lines: sensors.hall_lines, sensors.hall_break and the [[at]] changes of the sensors"};
   return {at(t_s), "", text + ": " + line_to_blame(found.hall_line),
-          "check the probe and the wire of this line"};
+          "check this Hall line's probe and wire: sensors.hall_break and the [[at]] changes of the sensors"};
 }
 
 base::Problem ran_away(const plant::State<double>& s, double t_s) {
@@ -202,7 +208,7 @@ base::Problem ran_away(const plant::State<double>& s, double t_s) {
   return {
       at(t_s), "",
       std::string("the run diverged: ") + found.name + " is " + base::rounded(found.value, 3) + found.unit,
-      "check the load, the friction and the moment of inertia, then the supply"};
+      "check the units of load torque, friction and moment of inertia, then of the [supply] values"};
 }
 
 void note_trip(const rig::Diagnosis& found, Outcome& out) {
@@ -212,17 +218,21 @@ void note_trip(const rig::Diagnosis& found, Outcome& out) {
     const char* cure;
   };
   static constexpr Reason reasons[] = {
-      {control::fault_over_current, "over-current", "check the current loop and protection.over_current_A"},
+      {control::fault_over_current, "over-current",
+       "give the current loop a longer settle_s, or raise protection.over_current_A"},
       {control::fault_over_voltage, "over-voltage",
-       "brake less, let the supply take current back, or set control.regeneration.limit_V"},
-      {control::fault_under_voltage, "under-voltage", "check the supply and protection.under_voltage_V"},
-      {control::fault_over_speed, "over-speed", "check the load and protection.over_speed_rad_s"},
-      {control::fault_hall, "an impossible Hall code, jump or edge", "check the probes and their wires"},
-      {control::fault_stall, "stall", "check the load and protection.stall_s"},
+       "brake with less current, set supply.sinks = true, or set control.regeneration.limit_V"},
+      {control::fault_under_voltage, "under-voltage",
+       "raise supply.voltage_V, or lower protection.under_voltage_V"},
+      {control::fault_over_speed, "over-speed",
+       "lower the speed reference or the load that drives the shaft, or raise protection.over_speed_rad_s"},
+      {control::fault_hall, "an impossible Hall code, jump or edge",
+       "check the Hall lines: sensors.hall_lines, sensors.hall_break and the [[at]] changes of the sensors"},
+      {control::fault_stall, "stall", "lower the load torque, or raise protection.stall_s"},
       {control::fault_calibration, "the offset of a current amplifier",
-       "check sensors.current_offset_A and protection.offset_tolerance_A"},
+       "lower sensors.current_offset_A, or raise protection.offset_tolerance_A"},
       {control::fault_align, "a rotor that did not reach the alignment position",
-       "check the load and protection.align"}};
+       "lower the load torque, or raise protection.align.current_A"}};
   if (found.faults == 0 && found.hall_line != 0)
     out.notes.push_back(line_to_blame(found.hall_line) + ": the drive continues without this line");
   if (found.unseen > 0) note_unseen(found, out);
@@ -238,7 +248,7 @@ void note_trip(const rig::Diagnosis& found, Outcome& out) {
   }
   if (found.hall_line != 0) {
     text += ": " + line_to_blame(found.hall_line);
-    cure = "check the probe and the wire of this line";
+    cure = "check this Hall line's probe and wire: sensors.hall_break and the [[at]] changes of the sensors";
   }
   out.fault =
       base::Problem{at(trip.at_s), "", "the drive tripped by " + text + "; then the motor coasts", cure};

@@ -32,10 +32,11 @@ base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& o
   const bool away = has_run_away(rig.plant());
   const rig::Diagnosis found = rig.firmware().diagnosis();
   if (!away && (stop == sim::Stop::unsettled || stop == sim::Stop::no_progress || w.crowded))
-    return {{"t = " + std::to_string(t_s) + " s", "",
-             stop == sim::Stop::unsettled ? "no consistent conduction mode was found"
-                                          : "switching events repeat without end at one instant",
-             "this is a defect of sixstep: please report it with the scenario file"}};
+    return {
+        {"t = " + std::to_string(t_s) + " s", "",
+         stop == sim::Stop::unsettled ? "no consistent conduction mode was found"
+                                      : "switching events repeat without end at one instant",
+         "this is a defect of sixstep: report this message, with the scenario file, in the issues of the repository"}};
   if (away)
     out.fault = ran_away(rig.plant().state(), t_s);
   else if (stop == sim::Stop::fault)

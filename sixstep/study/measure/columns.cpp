@@ -68,7 +68,7 @@ std::vector<Column> turning_columns() {
       {"encoder_A", "1", "", "line A of the incremental encoder, as the board's pin has it"},
       {"encoder_B", "1", "", "line B"},
       {"encoder_Z", "1", "", "the index line"},
-      {"absolute_code", "1", "", "Gray code that the absolute encoder shows"},
+      {"absolute_code", "1", "", "Gray code that the absolute encoder outputs"},
       {"resolver_cos_V", "V", "", "voltage of the resolver's cosine winding, without noise"},
       {"resolver_sin_V", "V", "", "voltage of the resolver's sine winding, without noise"},
       of(Signal::direct_current, "rotor, d",
@@ -189,7 +189,7 @@ base::Result<std::vector<std::size_t>> record_indices(const Scenario& scenario) 
         std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
     if (found == columns.end())
       problems.push_back({"record.columns", "\"" + name + "\"", "is not a column of the trace",
-                          "name one of the columns that the help on record.columns lists"});
+                          "name one of the columns that sixstep help record.columns lists"});
     else if (found != columns.begin())
       indices.push_back(static_cast<std::size_t>(found - columns.begin()));
   }

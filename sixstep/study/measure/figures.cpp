@@ -100,7 +100,7 @@ bool may_sample_in_the_middle(const Control& c) {
 /// maximum, an overshoot or a ripple includes the ripple at any sample instant.
 std::string cure_of_samples(const Scenario& s, const Measure& m) {
   std::string whole = "set sampled = false to judge the whole signal";
-  if (!levels_the_ripple(m.metric)) return whole + ", with the ripple between the samples";
+  if (!levels_the_ripple(m.metric)) return whole + ", with the ripple between the samples included";
   const bool is_so = s.pwm.sample == SampleAt::middle && s.pwm.alignment == Alignment::centre;
   if (is_so || unit_of(m.signal) != "A" || !may_sample_in_the_middle(s.control)) return whole;
   return "set pwm.alignment = \"centre\" and pwm.sample = \"middle\" to sample near the mean, or " + whole;
@@ -176,7 +176,7 @@ void note_coasting(const Scenario& s, Outcome& outcome) {
   };
   for (const Requirement& r : s.require) look(r.measure);
   for (const Comparison& c : s.compare) look(c.measure);
-  if (count > 0) outcome.notes.push_back("measured after the trip, with the drive off: " + which);
+  if (count > 0) outcome.notes.push_back("figures measured after the trip, with the drive off: " + which);
 }
 
 }  // namespace

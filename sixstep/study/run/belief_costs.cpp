@@ -26,11 +26,11 @@ std::string on_angle(const Scenario& s) {
                            (d > 0 ? "large" : "small") +
                            " (the sensor's offset_deg minus believed.sensor_offset_deg): ";
   if (s.control.drive != FirmwareKind::field)
-    return head + "by this angle each pair changes too " + (d > 0 ? "early" : "late") +
+    return head + "each commutation comes by this angle too " + (d > 0 ? "early" : "late") +
            " in forward rotation, and too " + (d > 0 ? "late" : "early") + " in reverse rotation";
   const double part = base::cos(rad);
   std::string text = head + "a current I across the assumed magnet axis gives K I cos d = " + percent(part) +
-                     " of its torque";
+                     " of the expected torque";
   if (part <= 0.0) text += ", with the wrong sign: a speed loop runs away";
   return text + ", and " + percent(std::fabs(base::sin(rad))) + " of the current flows along the magnet, " +
          (d > 0 ? "against" : "with") + " the magnet at forward torque";
@@ -49,13 +49,13 @@ std::string on_pole_pairs(const Scenario& s, const Compiled& c) {
       "the drive believes " + few_digits(p_f) + " pole pairs of a motor with " + few_digits(p_m) + ": ";
   const bool speed = s.control.mode == control::Mode::speed;
   if (counts_sectors(s))
-    return head + "it reads p_m/p_f = " + percent(p_m / p_f) + " of the speed" +
+    return head + "the drive measures p_m/p_f = " + percent(p_m / p_f) + " of the speed" +
            (speed ? ", and its speed loop controls the speed to " + percent(p_f / p_m) + " of the reference"
                   : "");
   if (s.sensors.rotor == RotorSensing::ideal || s.sensors.shaft == SensorShaft::load)
     return head + "decoupling and delay compensation use p_f/p_m = " + percent(p_f / p_m) +
            " of the electrical speed";
-  return head + "its electrical angle turns p_f/p_m = " + few_digits(p_f / p_m) +
+  return head + "the drive's electrical angle turns p_f/p_m = " + few_digits(p_f / p_m) +
          " times as fast as the magnet, so that the torque changes its sign " +
          few_digits(2 * std::fabs(p_f - p_m)) + " times per turn of the shaft, and its mean is 0";
 }
@@ -68,7 +68,7 @@ std::string loop_words(const Scenario& s, const Compiled& c, const LoopGains& g)
   };
   const auto [believed, z_f] = figures(c.believed.motor, believed_sheet(s));
   const auto [real, z_m] = figures(c.motor, s.sheet);
-  if (!real.stable) return "the " + g.loop + " loop of its design is unstable on the motor";
+  if (!real.stable) return "the " + g.loop + " loop as designed is unstable on the motor";
   std::string text =
       "the " + g.loop + " loop's slowest pole moves from z = " + few_digits(z_f) + " to " + few_digits(z_m);
   if (believed.bandwidth_rad_s && real.bandwidth_rad_s)
@@ -108,9 +108,9 @@ std::string on_flux(const Scenario& s, const Compiled& c) {
   if (ratio == 1.0) return {};
   std::string text =
       "the drive believes another torque constant: an ampere gives K_m/K_f = " + percent(ratio) +
-      " of the torque that it computes";
+      " of the torque that the drive computes";
   if (field && s.control.field.decoupling)
-    text += ", and its decoupling feeds " + percent(1 / ratio) + " of the back-EMF forward";
+    text += ", and the drive's decoupling adds " + percent(1 / ratio) + " of the back-EMF";
   if (s.control.field.weakening_A && field) {
     const double base_V = c.drive.nominal_bus_V / std::numbers::sqrt3;
     text += "; the back-EMF reaches the bus at " + few_digits(base_V / m.magnet_V_s) +

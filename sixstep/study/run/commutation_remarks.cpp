@@ -37,9 +37,9 @@ std::string on_idle_duty_step(const Scenario& s, const RunWatch& w) {
     return named(s) +
            " has no effect in this run: the duty is 1 at each commutation anyway, because the bus is too low for this speed and current; use a higher supply.voltage_V or a lower speed";
   return named(s) +
-         " has no effect in this run. It acts only while the motor drives, at edges where the leaving phase's current lasts longer than (1/2 + pwm.delay_periods) pwm.period_s = " +
+         " has no effect in this run. The control acts only while the motor drives, at edges where the leaving phase's current lasts longer than (1/2 + pwm.delay_periods) pwm.period_s = " +
          few_digits(1e6 * (0.5 + s.pwm.delay_periods) * s.pwm.period_s) +
-         " us, and this run has no such edge; a shorter pwm.period_s lowers this bound";
+         " us, and this run has no such edge; set a shorter pwm.period_s to lower this bound";
 }
 
 std::string on_chopped_staying_leg(const Scenario& s, const RunWatch& w) {
@@ -78,7 +78,7 @@ std::string on_long_overlap(const Scenario& s, const design::MotorModel& motor, 
                        : "does not end within a sector";
   if (limit_rad_s > 0.0)
     text += "; at this current and bus the limit is " + few_digits(limit_rad_s / near_it) + " rad/s";
-  return text + "; compare with \"duty-step\" or a higher bus";
+  return text + "; try \"duty-step\" or a higher supply.voltage_V";
 }
 
 }  // namespace sixstep::study

@@ -118,18 +118,20 @@ void look_at_sensors(const Scenario& s, base::Problems& out) {
                    '"' + std::string(base::word(rotor_sensing_choices, s.sensors.rotor)) + '"',
                    "is not supported by the header's drive, which reads Hall probes", cure_by_hall(s)});
   if (reads_currents(s) && s.sensors.currents == rig::CurrentMeasurement::ideal)
-    ideal("sensors.currents", "currents without the errors of amplifier and converter",
-          in_the_field(s) ? "set currents = \"phases\" or \"low-side\", and current_range_A"
-                          : "set currents = \"phases\", \"dc-link\" or \"low-side\", and current_range_A");
+    ideal(
+        "sensors.currents", "phase currents without the errors of amplifier and converter",
+        in_the_field(s)
+            ? "set sensors.currents = \"phases\" or \"low-side\", and give sensors.current_range_A"
+            : "set sensors.currents = \"phases\", \"dc-link\" or \"low-side\", and give sensors.current_range_A");
   if (reads_bus(s) && s.sensors.bus == BusSensing::ideal)
     ideal("sensors.bus", "a bus voltage without the errors of a converter",
-          "set bus = \"adc\" and bus_range_V");
+          "set sensors.bus = \"adc\" and give sensors.bus_range_V");
 }
 
 void look_at_design(const Scenario& s, base::Problems& out) {
   if (!s.not_usable.empty())
     out.push_back({"not_usable", "", "was set by the design: " + s.not_usable,
-                   "change the design until it is usable, or delete the line if it no longer applies"});
+                   "design the loops again, and remove the line not_usable if the new design is usable"});
 }
 
 /// The output computed from a sample in the middle of a period takes effect at the next period's start. This
@@ -137,9 +139,10 @@ void look_at_design(const Scenario& s, base::Problems& out) {
 void look_at_delay(const Scenario& s, base::Problems& out) {
   const bool samples = reads_currents(s) || reads_bus(s) || reads_rotor(s);
   if (samples && !by_comparators(s) && s.pwm.delay_periods == 0 && s.pwm.sample == SampleAt::start)
-    out.push_back({"pwm.delay_periods", "0",
-                   "answers a sample at the instant of the sample, and a chip must first convert and compute",
-                   "set delay_periods = 1, or sample = \"middle\""});
+    out.push_back(
+        {"pwm.delay_periods", "0",
+         "lets the command act at the instant of the sample, but a chip needs time to convert and compute",
+         "set delay_periods = 1, or sample = \"middle\""});
 }
 
 /// Turn-off time of a MOSFET, s: the gate driver removes the gate charge while the voltage rises and the
@@ -167,7 +170,7 @@ void look_at_dead_time(const Scenario& s, base::Problems& out) {
     refuse(own_s > shortest_s
                ? "ends before the other switch is off: the driver needs " + base::three_digits(1e9 * own_s) +
                      " ns for gate_source_charge_C + gate_drain_charge_C at gate_current_A"
-               : "is below 20e-9, in which no switch turns off");
+               : "is below 20e-9, and no switch turns off within 20 ns");
 }
 
 /// Refuses events that change the drive's constants or the dead time: a chip keeps the exported constants.
@@ -176,8 +179,8 @@ void look_at_changes(const Scenario& s, base::Problems& out) {
     const auto changes = [&](const char* what) {
       out.push_back(
           {"at[" + std::to_string(n) + "]", "at " + written(s.at[n].time_s) + " s",
-           std::string("changes ") + what + ", and the header has only the configuration at the start",
-           "remove the change, or export a scenario that begins with it"});
+           std::string("changes ") + what + ", but a header contains only the configuration at the start",
+           "remove the change, or export a scenario that begins with the changed values"});
     };
     if (retunes(s.at[n])) changes("the drive's settings");
     if (s.at[n].bridge.dead_time_s) changes("the dead time");
@@ -230,7 +233,7 @@ base::Problems not_held(const Outcome& outcome) {
           {v.figure, std::isfinite(v.measured) ? measured(v) : "",
            (std::isfinite(v.measured) ? "misses its requirement, " : "never reached its requirement, ") +
                required(v),
-           "read the report of the run, and change the drive"});
+           "find the cause in the run's report, and change the loops or the requirement"});
   return out;
 }
 
@@ -262,7 +265,7 @@ void add_notes(const Scenario& s, const Listeners& listeners, Clearance& c) {
 base::Result<Clearance> clear_for_export(const Scenario& scenario, const Listeners& listeners) {
   if (scenario.sheet.kind == design::MotorKind::linear)
     return base::Problem{"motor", "\"" + scenario.motor + "\"",
-                         "is linear, and a header supports rotary motors only",
+                         "is a linear motor, and a header supports only rotary motors",
                          "copy the gains from the run's report"};
   base::Result<Outcome> outcome = run(watching_peaks(scenario), listeners);
   if (!outcome) return outcome.problems();

@@ -48,17 +48,17 @@ std::string limit_above_nominal(const Scenario& s, const design::MotorModel& mot
   if (times && !times->by_values && !times->by_worse_ends) return {};
   const bool linear = s.sheet.kind == design::MotorKind::linear;
   const std::string stands =
-      times
-          ? withstood(*times, s.heat.ambient_degC)
-          : "; without thermal values in the sheet it is not known how long the winding withstands this current";
+      times ? withstood(*times, s.heat.ambient_degC)
+            : "; the sheet has no thermal values that say how long the winding withstands this current";
   const std::string multiple = nominal_A > 0.0
                                    ? ", " + few_digits(most->ampere / nominal_A) +
                                          " times the nominal current of " + few_digits(nominal_A) + " A"
                                    : "";
   return most->by + " lets " + few_digits(most->ampere) + " A flow" + multiple + stands +
          "; no protection of the drive ends this current while " +
-         (linear ? "the slide moves" : "the rotor turns") + ": lower the limit, or apply the load for " +
-         (times ? "less than that time" : "a short time only");
+         (linear ? "the slide moves" : "the rotor turns") +
+         ": lower the current limit, or apply the load for " +
+         (times ? "less than this time" : "a short time only");
 }
 
 std::vector<std::string> unchecked(const Scenario& s, const design::MotorModel& motor) {
@@ -68,7 +68,7 @@ std::vector<std::string> unchecked(const Scenario& s, const design::MotorModel& 
   const auto thermal = design::thermal_model(s.sheet);
   const auto add = [&all](const std::string& what, const std::string& missing) {
     all.push_back("not checked: " + what + ": the motor file has no " + missing +
-                  "; add it to the motor file or to [motor_override]");
+                  "; give this value in the motor file or in [motor_override]");
   };
   if (!thermal && most && s.control.drive == FirmwareKind::product && s.protection.stall_s)
     add("whether the winding withstands " + few_digits(most->ampere) + " A, " + most->by +
@@ -100,7 +100,7 @@ WithoutSink without_sink(const Scenario& s, const design::MotorModel& motor, con
   if (!(s.supply.capacitance_F > 0.0) || !(s.supply.resistance_ohm > 0.0)) {
     w.note =
         std::string(condition) +
-        ". This stiff bus cannot rise; if your supply takes no current back, set supply.resistance_ohm, supply.capacitance_F and sinks = false";
+        ". The voltage of this stiff bus cannot rise; if your supply takes no current back, set supply.resistance_ohm, supply.capacitance_F and supply.sinks = false";
     return w;
   }
   Scenario other = s;
@@ -129,7 +129,7 @@ std::string short_dead_time(const Scenario& s) {
     return {};
   return "bridge.dead_time_s = " + few_digits(1e9 * dead_s) + " ns is short: most " +
          (igbt ? "IGBTs" : "MOSFETs") + " with their drivers need " + few_digits(1e9 * usual_s) +
-         " ns or more from the command until they are off, and the bus is shorted until then. Compare the dead time with the switch's turn-off delay and fall time, or give bridge.gate_current_A and the gate's charges";
+         " ns or more from the command until they are off, and the leg shorts the bus during this time. Set a dead time above the sum of the switch's turn-off delay and fall time, or give bridge.gate_current_A and the gate's charges";
 }
 
 std::string without_protection(const Scenario& s) {

@@ -72,8 +72,9 @@ void look_at_stalling(const Scenario& s, const MostCurrent& most, base::Problems
   const double lower_A = std::min(0.8 * most.ampere, surely_A);
   out.push_back(
       {"protection.stall_current_A", written(*p.stall_current_A), coarse ? limited + counted : limited,
-       lower_A > 0 ? "lower it, for example to " + rounded_down(lower_A) + (coarse ? ", or " + finer : "")
-                   : finer});
+       lower_A > 0
+           ? "lower this value, for example to " + rounded_down(lower_A) + (coarse ? ", or " + finer : "")
+           : finer});
 }
 
 /// Refuses a threshold that would stop a drive in normal operation.
@@ -83,7 +84,7 @@ void look_at_over_current(const Scenario& s, const MostCurrent& most, base::Prob
   out.push_back({"protection.over_current_A", written(*over_A),
                  "stops the drive at a current that the drive's limits allow: " +
                      base::three_digits(most.ampere) + " A, " + most.by,
-                 "raise it above that current plus the ripple, or lower the limit"});
+                 "raise this value above this current plus the ripple, or lower the current limit"});
 }
 
 /// A blocked rotor: two phases carry the current, and friction does not heat the motor.
@@ -101,7 +102,7 @@ void look_at_stall_time(const Scenario& s, const design::MotorModel& motor, cons
                  "is longer than the winding withstands a stall: " + base::three_digits(most.ampere) +
                      " A, " + most.by + ", heats it to " + base::three_digits(times->worse_limit_degC) +
                      " degC within " + within,
-                 "shorten it, for example to " + rounded_down(0.5 * *times->by_worse_ends)});
+                 "shorten this value, for example to " + rounded_down(0.5 * *times->by_worse_ends)});
 }
 
 void look_at_over_speed(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
@@ -115,7 +116,7 @@ void look_at_over_speed(const Scenario& s, const design::MotorModel& motor, base
                      base::three_digits(highest_open_V(s) / motor.K_t_Nm_A) +
                      " rad/s, and the threshold is above " + base::three_digits(beyond_no_load) +
                      " times that speed (" + base::three_digits(fastest) + " rad/s)",
-                 "lower it to the highest speed that motor and machine withstand"});
+                 "lower this value to the highest speed that motor and machine withstand"});
 }
 
 /// With an accepted offset, the converter must still show the over-current threshold in both directions.
@@ -133,7 +134,7 @@ void look_at_offset(const Scenario& s, base::Problems& out) {
            base::three_digits(*range_A - *tolerance_A) + " A in one direction" +
            (by_half ? ", less than half of sensors.current_range_A = " + written(*range_A)
                     : ", and protection.over_current_A = " + written(over_A) + " is not exceeded there"),
-       "lower it to " + rounded_down(most_A) + " at most; 2 % of the range are usual"});
+       "lower this value to " + rounded_down(most_A) + " at most; 2 % of the range are usual"});
 }
 
 }  // namespace

@@ -83,14 +83,14 @@ base::Problem raised_after(const Scenario& s, const Trip& trip, const std::strin
                             " turns the shaft, as a hanging weight does"
                       : std::string("the load turns the shaft")) +
               ", and the back-EMF feeds the bus through the diodes",
-          std::string("prevent the trip") +
+          std::string("change the scenario so that the drive does not trip") +
               (turned ? "; for a load that does not turn the shaft use load.coulomb_Nm" : "")};
 }
 
 /// A weaker brake feeds less power into the bus, for a longer time.
 std::string cure_of_stop(const std::vector<std::string>& reasons) {
   if (std::find(reasons.begin(), reasons.end(), "over-voltage") == reasons.end())
-    return "lower it, or let the scenario show the stop: protection.off_at_s";
+    return "lower protection.brake_current_A, or add protection.off_at_s, so that the run shows the stop";
   return "give supply.brake_resistance_ohm with brake_on_V below protection.over_voltage_V, "
          "control.regeneration.limit_V or more supply.capacitance_F";
 }
@@ -126,7 +126,7 @@ void look_at_current_range(const Scenario& s, const SeenPeaks& peaks, base::Prob
   out.push_back({"sensors.current_range_A", written(*s.sensors.current_range_A),
                  "was exceeded in the run: " + base::three_digits(peaks.phase_A) +
                      " A flowed, and the converter measures only up to " + base::three_digits(end) + " A",
-                 "raise it, or lower the drive's current limit"});
+                 "raise this value, or lower control.current.limit_A"});
 }
 
 void look_at_bus(const Scenario& s, const SeenPeaks& peaks, bool is_read, const Listeners& listeners,
@@ -138,7 +138,7 @@ void look_at_bus(const Scenario& s, const SeenPeaks& peaks, bool is_read, const 
       out.push_back({"sensors.bus_range_V", written(*s.sensors.bus_range_V),
                      "was exceeded in the run: the bus reached " + bus +
                          " V, and the converter measures only up to " + base::three_digits(end) + " V",
-                     "raise it, or limit the bus voltage"});
+                     "raise this value, or set control.regeneration.limit_V"});
   }
   if (peaks.bus_V <= allowed_bus_V(s)) return;
   if (peaks.trip && bus_until_the_trip_V(s, *peaks.trip, listeners) < 0.99 * peaks.bus_V)

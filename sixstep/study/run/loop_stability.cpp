@@ -40,11 +40,11 @@ std::optional<base::Problem> unstable_current_loop(const Scenario& s, const desi
   if (!is_current_pi(s, g)) return std::nullopt;
   if (design::is_stable(closed(open_current_loop(current_loop_on(s, motor, s.sheet, g))).den))
     return std::nullopt;
-  return base::Problem{"the " + g.loop + " loop", "",
-                       "is unstable with its gains (" + g.origin +
-                           ") on this motor's R and L at a control period of " +
-                           few_digits(1e6 * s.pwm.period_s) + " us: the current swings between its limits",
-                       "give smaller gains, or remove the gains to have them designed"};
+  return base::Problem{
+      "the " + g.loop + " loop", "",
+      "is unstable with its gains (" + g.origin + ") on this motor's R and L at a control period of " +
+          few_digits(1e6 * s.pwm.period_s) + " us: the current swings between its limits",
+      "give smaller gains, or remove the gains so that the program designs them from settle_s"};
 }
 
 }  // namespace sixstep::study

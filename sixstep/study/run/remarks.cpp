@@ -63,7 +63,7 @@ std::string on_late_values(const Scenario& s) {
   if (unreached < 1) return {};
   return std::to_string(unreached) + " of the " + std::to_string(r.times_s.size()) +
          " values of the reference are after the end of the run, duration_s = " + few_digits(s.duration_s) +
-         ": the run does not use them" +
+         ": the run does not use these values" +
          (r.file.empty() ? "" : "; check the unit of the times: without a unit they are in s");
 }
 
@@ -138,7 +138,7 @@ std::string on_hall_timeout(const Scenario& s, const Compiled& c) {
   if (asked == 0.0 || sector_s(c, asked) <= s.sensors.timeout_s) return {};
   return "at the reference of " + speed(s, asked) + " a Hall edge comes every " + ms(sector_s(c, asked)) +
          ", longer than sensors.timeout_s = " + ms(s.sensors.timeout_s) +
-         ": between two edges the measured speed is 0; the slowest measurable speed is " +
+         ": between two edges the drive measures the speed 0; the slowest measurable speed is " +
          speed(s, sector_s(c, 1.0) / s.sensors.timeout_s);
 }
 
@@ -156,7 +156,7 @@ std::string on_sign(const LoopGains& g, const std::string& key) {
   if (!(g.d1 < 0.0) || g.origin.starts_with("given")) return {};
   return "the " + g.loop + " loop's gain on the error is negative, d1 = " + few_digits(g.d1) +
          ": at a step the output first moves in the wrong direction, because " + key +
-         ".settle_s is slower than the plant itself; set a shorter one";
+         ".settle_s is slower than the plant itself; set a shorter settle_s";
 }
 
 std::string on_stability(const Scenario& s, const Compiled& c, const LoopGains& g) {
@@ -175,7 +175,7 @@ std::string on_back_emf(const Scenario& s, const Compiled& c, const RunWatch& w)
   if (!(emf_V > 1.01 * w.emf_bus_V)) return {};
   return "at " + speed(s, w.emf_rad_s) + " the back-EMF of " + few_digits(emf_V) +
          " V between two terminals is above the bus of " + few_digits(w.emf_bus_V) +
-         " V: without a current against the magnet the diodes feed the bus, whatever the duty is";
+         " V: without a current against the magnet the diodes feed the bus at every duty";
 }
 
 /// Finds a winding that stays below its limit with the motor file's thermal values, but may exceed it within
@@ -287,7 +287,7 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, const 
   };
   ThermalRemarks thermal = thermal_remarks(s, c, w, end, out);
   if (const std::string unused = unused_keys(s, thermal.use_ambient(s)); !unused.empty())
-    add("given without effect: " + unused);
+    add("keys without effect: " + unused);
   if (!s.not_usable.empty()) add("the design of this drive is NOT USABLE: " + s.not_usable);
   for (std::string& text : belief_costs(s, c)) add(std::move(text));
   add(sheet_contradiction(s));

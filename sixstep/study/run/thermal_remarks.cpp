@@ -57,8 +57,8 @@ std::string on_kept_current(const Scenario& s, const EndWatch& watch, double win
          few_digits(copper_W) + " W, as with " + few_digits(equal_A) + " A through two phases" + multiple +
          (times ? withstood(*times, s.heat.ambient_degC)
                 : "; the sheet has no thermal values that say how long the winding withstands this current") +
-         "; lower the load or the current, or keep it for " +
-         (times ? "less than that time" : "a short time only");
+         "; lower the load or the current, or keep the current for " +
+         (times ? "less than this time" : "a short time only");
 }
 
 }  // namespace sixstep::study

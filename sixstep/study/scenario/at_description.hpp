@@ -11,7 +11,7 @@ namespace sixstep::study {
 
 inline void describe(base::Visitor& v, AtSupply& s) {
   v.value("voltage_V", s.voltage_V,
-          {.meaning = "voltage of the source from time_s on; a stiff bus follows at once",
+          {.meaning = "voltage of the source from time_s on; a stiff bus takes this voltage at once",
            .unit = "V",
            .range = base::above(0)});
   v.value("sinks", s.sinks, {.meaning = "whether the source takes current back from time_s on"});
@@ -44,7 +44,9 @@ inline constexpr base::Choice<AtChopping> at_chopping_choices[] = {
 inline void describe(base::Visitor& v, AtCurrentLoop& s) {
   describe_gains(v, s, current_gain_meanings);
   v.value("band_A", s.band_A,
-          {.meaning = "hysteresis: half width of the band from time_s on", .unit = "A", .range = above(0)});
+          {.meaning = "hysteresis: half width of the band around the reference from time_s on",
+           .unit = "A",
+           .range = above(0)});
   v.value("limit_A", s.limit_A,
           {.meaning = "bound on an outer loop's current reference from time_s on",
            .unit = "A",
@@ -78,15 +80,17 @@ inline void describe(base::Visitor& v, AtLimits& s) {
   v.value("current_A", s.current_A,
           {.meaning = "bound on the current reference from time_s on", .unit = "A", .range = above(0)});
   v.value("torque_Nm", s.torque_Nm,
-          {.meaning = "the same bound as a torque, divided by K_t",
+          {.meaning = "bound on the current reference as a torque: the torque divided by K_t is the current",
            .unit = "N m",
            .range = above(0),
            .also = words::force});
-  v.value("speed_rad_s", s.speed_rad_s,
-          {.meaning = "speed that the drive's own torque does not exceed from time_s on",
-           .unit = "rad/s",
-           .range = above(0),
-           .also = words::speed});
+  v.value(
+      "speed_rad_s", s.speed_rad_s,
+      {.meaning =
+           "speed limit of the drive's own torque from time_s on; above this speed all gates are off, unless the drive brakes",
+       .unit = "rad/s",
+       .range = above(0),
+       .also = words::speed});
 }
 
 inline constexpr base::Choice<AtCommutates> at_commutates_choices[] = {
@@ -96,14 +100,17 @@ inline constexpr base::Choice<AtCommutates> at_commutates_choices[] = {
 };
 
 inline void describe(base::Visitor& v, AtSensorless& s) {
-  v.choice("commutates", s.commutates, at_commutates_choices,
-           {.meaning = "source of the commutation, from the instant at which both sources give the same "
-                       "sector"});
+  v.choice(
+      "commutates", s.commutates, at_commutates_choices,
+      {.meaning =
+           "sensorless drive: source of the commutation, from the instant at which both sources give the same sector"});
 }
 
 inline void describe(base::Visitor& v, AtControl& s) {
-  v.choice("mode", s.mode, at_mode_choices,
-           {.meaning = "controlled quantity from the next control sample on; with a reference in its unit"});
+  v.choice(
+      "mode", s.mode, at_mode_choices,
+      {.meaning =
+           "controlled quantity from the next control sample on; the event must give a reference in the unit of this mode"});
   v.table("current", s.current, {.meaning = "the current controller", .cure = what_may_change});
   v.table("speed", s.speed, {.meaning = "the speed controller", .cure = what_may_change});
   v.table("position", s.position, {.meaning = "the position controller", .cure = what_may_change});
@@ -148,21 +155,23 @@ inline void describe(base::Visitor& v, AtBridge& s) {
   v.value(
       "dead_time_s", s.dead_time_s,
       {.meaning =
-           "pause between turning one switch of a leg off and the other on, for all switching from time_s on",
+           "pause between the turn-off of one switch of a leg and the turn-on of the other switch, from time_s on",
        .unit = "s",
        .range = from(0)});
 }
 
 inline constexpr base::Choice<Wire> wire_choices[] = {
-    {"none", Wire::none, "all three are intact"},
+    {"none", Wire::none, "all three wires are intact"},
     {"a", Wire::a, "the wire of terminal a"},
     {"b", Wire::b, "the wire of terminal b"},
     {"c", Wire::c, "the wire of terminal c"},
 };
 
 inline void describe(base::Visitor& v, AtMotor& s) {
-  v.choice("broken_wire", s.broken_wire, wire_choices,
-           {.meaning = "a wire that breaks at time_s: it opens at its current's next zero, and stays open"});
+  v.choice(
+      "broken_wire", s.broken_wire, wire_choices,
+      {.meaning =
+           "a wire that breaks at time_s: the wire opens when its current is next zero, and stays open"});
 }
 
 inline void describe(base::Visitor& v, At& s) {
@@ -174,10 +183,11 @@ inline void describe(base::Visitor& v, At& s) {
   v.table("load", s.load, {.meaning = "the load from time_s on", .cure = what_may_change});
   v.table("sensors", s.sensors, {.meaning = "changes and faults of the sensors", .cure = what_may_change});
   v.choice("request", s.request, request_choices, {.meaning = "request to the product drive"});
-  v.table("control", s.control,
-          {.meaning = "changes of the controller from its next sample on; loops that stay active keep "
-                      "their state",
-           .cure = what_may_change});
+  v.table(
+      "control", s.control,
+      {.meaning =
+           "changes of the controller from the next control sample on; loops that stay active keep their state",
+       .cure = what_may_change});
   v.table("pwm", s.pwm, {.meaning = "the modulation from time_s on", .cure = what_may_change});
   v.table("bridge", s.bridge, {.meaning = "the bridge from time_s on", .cure = what_may_change});
   v.table("motor", s.motor, {.meaning = "faults of the motor", .cure = what_may_change});

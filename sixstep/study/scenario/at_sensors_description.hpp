@@ -57,16 +57,16 @@ inline constexpr base::Choice<EncoderLevel> encoder_level_choices[] = {
 
 inline void describe(base::Visitor& v, AtTrack& s) {
   v.value("track", s.track,
-          {.meaning = "number of the track, from 1, the finest, to sensors.absolute.bits",
+          {.meaning = "number of the track, from 1 (the finest track) to sensors.absolute.bits",
            .range = base::between(1, 20)});
   v.choice("level", s.level, encoder_level_choices, {.meaning = "level of the track from time_s on"});
 }
 
 inline constexpr base::Choice<EncoderLine> encoder_line_choices[] = {
-    {"A", EncoderLine::A, "high over the first half of each line of the disc"},
-    {"B", EncoderLine::B, "like line A, a quarter of a line later"},
+    {"A", EncoderLine::A, "line A: high over the first half of each line of the disc"},
+    {"B", EncoderLine::B, "line B: like line A, a quarter of a line later"},
     {"Z", EncoderLine::Z,
-     "the index: if it sticks, it is lost; if its level rises at time_s, the drive sees the index at a wrong place"},
+     "line Z, the index: if the line sticks, the index is lost; if the level rises at time_s, the drive reads an index at a wrong angle"},
 };
 
 inline void describe(base::Visitor& v, AtEncoderLine& s) {
@@ -80,20 +80,21 @@ inline void describe(base::Visitor& v, AtEncoderLine& s) {
 
 inline constexpr base::Choice<Winding> winding_choices[] = {
     {"none", Winding::none, "none breaks"},
-    {"cosine", Winding::cosine, "the winding of the cosine"},
-    {"sine", Winding::sine, "the winding of the sine"},
-    {"whole", Winding::whole, "both are intact again"},
+    {"cosine", Winding::cosine, "the cosine winding"},
+    {"sine", Winding::sine, "the sine winding"},
+    {"whole", Winding::whole, "both windings are intact again"},
 };
 
 inline constexpr base::Choice<Wire> divider_choices[] = {
-    {"none", Wire::none, "all three are intact"},
+    {"none", Wire::none, "all three dividers are intact"},
     {"a", Wire::a, "the divider of terminal a"},
     {"b", Wire::b, "the divider of terminal b"},
     {"c", Wire::c, "the divider of terminal c"},
 };
 
 inline void describe(base::Visitor& v, AtSensors& s) {
-  v.table("hall_break", s.hall_break, {.meaning = "a Hall line that breaks at time_s, or is intact again"});
+  v.table("hall_break", s.hall_break,
+          {.meaning = "a Hall line that breaks at time_s, or is intact again from then on"});
   v.choice("hall_lines", s.hall_lines, at_hall_order_choices,
            {.meaning = "Hall probes at pins H1, H2, H3 of the board from time_s on"});
   v.choice("hall_inverted", s.hall_inverted, at_hall_inverted_choices,
@@ -101,7 +102,7 @@ inline void describe(base::Visitor& v, AtSensors& s) {
   v.value(
       "current_offset_A", s.current_offset_A,
       {.meaning =
-           "reading of the amplifiers at zero current from time_s on; the drive measured its offsets before",
+           "reading of the amplifiers at zero current from time_s on; the drive measured its offsets before the run",
        .unit = "A"});
   v.value(
       "current_gain_error", s.current_gain_error,
@@ -112,20 +113,25 @@ inline void describe(base::Visitor& v, AtSensors& s) {
                       "the count",
            .range = base::between(1, 1000000)});
   v.table("bad_track", s.bad_track,
-          {.meaning = "a track of the absolute encoder that sticks from time_s on, or is intact again",
+          {.meaning =
+               "a track of the absolute encoder that sticks from time_s on, or is intact again from then on",
            .cure = what_may_change});
-  v.table("encoder_line", s.encoder_line,
-          {.meaning = "a line of the incremental encoder that sticks from time_s on, or is intact again",
-           .cure = what_may_change});
+  v.table(
+      "encoder_line", s.encoder_line,
+      {.meaning =
+           "a line of the incremental encoder that sticks from time_s on, or is intact again from then on",
+       .cure = what_may_change});
   v.value("false_index", s.false_index,
-          {.meaning = "true: a disturbance on line Z, which the timer counts as the index"});
+          {.meaning = "true: a disturbance on line Z at time_s, which the timer counts as the index"});
   v.choice("broken_winding", s.broken_winding, winding_choices,
            {.meaning = "a winding of the resolver without a voltage from time_s on"});
   v.value("excitation", s.excitation,
           {.meaning = "the resolver's excitation from time_s on, as a fraction of the full excitation",
            .range = base::between(0, 2)});
-  v.choice("broken_divider", s.broken_divider, divider_choices,
-           {.meaning = "a terminal's divider whose upper resistor opens at time_s: it shows 0"});
+  v.choice(
+      "broken_divider", s.broken_divider, divider_choices,
+      {.meaning =
+           "a terminal's divider whose upper resistor opens at time_s: the drive reads 0 V at this terminal"});
 }
 
 }  // namespace sixstep::study

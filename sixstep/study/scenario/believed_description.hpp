@@ -14,8 +14,8 @@ inline void describe_believed_winding(base::Visitor& v, Believed& s) {
   namespace spellings = design::spellings;
   v.value(
       "pole_pairs", s.pole_pairs,
-      {.meaning = "electrical turns per turn of the shaft, by which the drive converts edges to speed and "
-                  "a shaft's angle to the electrical angle",
+      {.meaning =
+           "pole pairs with which the drive converts edges to speed, and the shaft's angle to the electrical angle",
        .range = base::between(1, design::most_pole_pairs)});
   v.quantity("resistance_ohm", s.resistance_ohm,
              {.meaning = "winding resistance, between two terminals or of one phase of the star",
@@ -30,13 +30,13 @@ inline void describe_believed_winding(base::Visitor& v, Believed& s) {
               .range = above(0),
               .also = spellings::inductance});
   v.quantity("d_axis_inductance_mH", s.d_axis_inductance_mH,
-             {.meaning = "inductance of one phase along the magnets, with q_axis_inductance_mH",
+             {.meaning = "inductance of one phase along the magnets, L_d; needs q_axis_inductance_mH",
               .unit = "mH",
               .frame = "phase",
               .range = above(0),
               .also = spellings::d_axis_inductance});
   v.quantity("q_axis_inductance_mH", s.q_axis_inductance_mH,
-             {.meaning = "inductance of one phase across the magnets",
+             {.meaning = "inductance of one phase across the magnets, L_q; needs d_axis_inductance_mH",
               .unit = "mH",
               .frame = "phase",
               .range = above(0),
@@ -60,8 +60,8 @@ inline void describe_believed_torque(base::Visitor& v, Believed& s) {
               .also = spellings::back_emf_per_speed});
   v.quantity(
       "torque_constant_Nm_A", s.torque_constant_Nm_A,
-      {.meaning = "torque per ampere, through the driven pair (terminal), of the q axis (peak) or of a "
-                  "sine in each phase (rms), instead",
+      {.meaning =
+           "instead of torque_constant_mNm_A: torque per ampere through the driven pair (terminal), of the q axis (peak) or of a sine in each phase (rms)",
        .unit = "Nm/A",
        .frame = "terminal|peak|rms",
        .range = above(0),
@@ -88,13 +88,14 @@ inline void describe_believed_torque(base::Visitor& v, Believed& s) {
 inline void describe(base::Visitor& v, Believed& s) {
   describe_believed_winding(v, s);
   describe_believed_torque(v, s);
-  v.choice("hall_lines", s.hall_lines, hall_order_choices,
-           {.meaning = "Hall probes that the drive's table assumes at pins H1, H2, H3; right if it equals "
-                       "sensors.hall_lines"});
+  v.choice(
+      "hall_lines", s.hall_lines, hall_order_choices,
+      {.meaning =
+           "Hall probes that the drive's table assumes at pins H1, H2, H3; correct if equal to sensors.hall_lines"});
   v.value(
       "sensor_offset_deg", s.sensor_offset_deg,
       {.meaning = "electrical angle that the drive subtracts from the angle of encoder, absolute encoder or "
-                  "resolver; right if it equals the sensor's offset_deg",
+                  "resolver; correct if equal to the sensor's offset_deg",
        .unit = "deg",
        .range = base::between(-360, 360)});
 }

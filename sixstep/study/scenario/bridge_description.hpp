@@ -33,10 +33,11 @@ inline void describe_losses(base::Visitor& v, Bridge& s) {
       {.meaning = "bus voltage at which the switching energies are given", .unit = "V", .range = from(0)});
   v.value("energies_at_A", s.energies_at_A,
           {.meaning = "current at which the switching energies are given", .unit = "A", .range = from(0)});
-  v.value("gate_current_A", s.gate_current_A,
-          {.meaning = "mosfet: current of the gate driver; with the two gate charges instead of energies",
-           .unit = "A",
-           .range = between(0, most_gate_A)});
+  v.value(
+      "gate_current_A", s.gate_current_A,
+      {.meaning = "mosfet: current of the gate driver; with the two gate charges it replaces the energies",
+       .unit = "A",
+       .range = between(0, most_gate_A)});
   v.value("gate_source_charge_C", s.gate_source_charge_C,
           {.meaning = "mosfet: gate charge while the current rises or falls, Q_gs2",
            .unit = "C",
@@ -51,15 +52,17 @@ inline void describe_losses(base::Visitor& v, Bridge& s) {
            .range = between(0, most_charge_C)});
   v.value("sink_degC", s.sink_degC,
           {.meaning = "temperature of the heat sink", .unit = "degC", .range = between(-100, 1000)});
-  v.value("junction_K_W", s.junction_K_W,
-          {.meaning = "thermal resistance of each switch from junction to heat sink; 0: not known",
-           .unit = "K/W",
-           .range = from(0)});
   v.value(
-      "on_resistance_percent_K", s.on_resistance_percent_K,
-      {.meaning = "rise of on_resistance_ohm per kelvin of the junction above 25 degC: 0.6 of many MOSFETs",
-       .unit = "percent/K",
+      "junction_K_W", s.junction_K_W,
+      {.meaning =
+           "thermal resistance of each switch from junction to heat sink; 0: junction temperatures are not computed",
+       .unit = "K/W",
        .range = from(0)});
+  v.value("on_resistance_percent_K", s.on_resistance_percent_K,
+          {.meaning =
+               "rise of on_resistance_ohm per kelvin of the junction above 25 degC; typical of MOSFETs: 0.6",
+           .unit = "percent/K",
+           .range = from(0)});
 }
 
 inline void describe(base::Visitor& v, Bridge& s) {
@@ -71,19 +74,19 @@ inline void describe(base::Visitor& v, Bridge& s) {
            .unit = "ohm",
            .range = from(0)});
   v.value("saturation_V", s.saturation_V,
-          {.meaning = "igbt: voltage across a transistor that is on, at no current",
+          {.meaning = "igbt: voltage across a transistor that is on, at zero current",
            .unit = "V",
            .range = from(0)});
   v.value("diode_drop_V", s.diode_drop_V,
-          {.meaning = "forward drop of a diode at no current", .unit = "V", .range = from(0)});
+          {.meaning = "forward voltage of a diode at zero current", .unit = "V", .range = from(0)});
   v.value("diode_resistance_ohm", s.diode_resistance_ohm,
           {.meaning = "differential resistance of a diode", .unit = "ohm", .range = from(0)});
   v.value("dead_time_s", s.dead_time_s,
-          {.meaning = "pause between turning one switch of a leg off and the other on",
+          {.meaning = "pause between the turn-off of one switch of a leg and the turn-on of the other switch",
            .unit = "s",
            .range = from(0)});
   v.value("dead_time_at_commutation", s.dead_time_at_commutation,
-          {.meaning = "whether the dead time also delays the turn-ons of a commutation"});
+          {.meaning = "whether the dead time delays also the turn-ons at a commutation"});
   describe_losses(v, s);
 }
 
@@ -95,7 +98,7 @@ inline void describe(base::Visitor& v, Heat& s) {
   v.value(
       "devices", s.devices,
       {.meaning =
-           "whether the switches' junctions warm up by bridge.junction_K_W, and on_resistance_ohm follows"});
+           "whether the switches' junctions warm up by bridge.junction_K_W, and on_resistance_ohm changes with their temperature"});
   v.value(
       "ambient_degC", s.ambient_degC,
       {.meaning = "temperature of the air around the motor", .unit = "degC", .range = between(-100, 1000)});
@@ -108,7 +111,7 @@ inline void describe(base::Visitor& v, Heat& s) {
            .unit = "degC",
            .range = between(-100, 1000)});
   v.value("step_s", s.step_s,
-          {.meaning = "interval at which R, K_e and on_resistance_ohm follow the temperatures",
+          {.meaning = "interval at which R, K_e and on_resistance_ohm are computed from the temperatures",
            .unit = "s",
            .range = between(1e-3, 1e3)});
 }

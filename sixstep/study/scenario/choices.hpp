@@ -16,8 +16,7 @@ inline constexpr Choice<Device> device_choices[] = {
 inline constexpr Choice<SourceKind> source_choices[] = {
     {"steady", SourceKind::steady, "a voltage behind resistance_ohm"},
     {"battery", SourceKind::battery,
-     "a voltage that depends on the charge, and a part of it that recovers "
-     "slowly"},
+     "a battery: a voltage that depends on the charge, and a part of the voltage that recovers slowly after a load"},
     {"single-phase", SourceKind::single_phase, "mains of one phase behind a bridge of four diodes"},
     {"three-phase", SourceKind::three_phase, "mains of three phases behind a bridge of six diodes"},
 };
@@ -28,7 +27,7 @@ inline constexpr Choice<Between> between_choices[] = {
 inline constexpr Choice<rig::WireOrder> phase_order_choices[] = {
     {"abc", rig::WireOrder::abc, "each phase at its own leg"},
     {"bca", rig::WireOrder::bca, "phases b, c, a at legs a, b, c: all three are moved forward"},
-    {"cab", rig::WireOrder::cab, "phases c, a, b: all three are moved back"},
+    {"cab", rig::WireOrder::cab, "phases c, a, b at legs a, b, c: all three are moved back"},
     {"acb", rig::WireOrder::acb, "phases b and c swapped"},
     {"cba", rig::WireOrder::cba, "phases a and c swapped"},
     {"bac", rig::WireOrder::bac, "phases a and b swapped"},
@@ -39,9 +38,9 @@ inline constexpr Choice<Alignment> alignment_choices[] = {
 };
 inline constexpr Choice<control::Chopping> chopping_choices[] = {
     {"soft", control::Chopping::soft, "only the source phase's upper switch is chopped"},
-    {"hard", control::Chopping::hard, "both switches of the driven pair are chopped"},
+    {"hard", control::Chopping::hard, "both switches of the driven pair are chopped together"},
     {"complementary", control::Chopping::complementary,
-     "as soft, and the source phase's lower switch is on while its upper is off"},
+     "as soft, and the source phase's lower switch is on while its upper switch is off"},
 };
 inline constexpr Choice<control::PwmPattern> pattern_choices[] = {
     {"upper", control::PwmPattern::upper, "the upper switch; the lower one stays on (H_PWM-L_ON)"},
@@ -60,11 +59,12 @@ inline constexpr Choice<CommutationAt> commutation_choices[] = {
     {"sample", CommutationAt::sample, "the pair changes at the next control sample"},
 };
 inline constexpr Choice<SampleAt> sample_choices[] = {
-    {"start", SampleAt::start, "at the start of the period, before the switching of that instant"},
-    {"middle", SampleAt::middle, "in the middle; the answer takes effect at the next start"},
+    {"start", SampleAt::start, "at the start of the period, before the switches change at this instant"},
+    {"middle", SampleAt::middle,
+     "in the middle of the period; the answer takes effect at the start of the next period"},
 };
 inline constexpr Choice<FirmwareKind> drive_choices[] = {
-    {"lean", FirmwareKind::lean, "the loops alone; their measurements are ideal, or as in [sensors]"},
+    {"lean", FirmwareKind::lean, "only the control loops; their measurements are ideal, or as in [sensors]"},
     {"product", FirmwareKind::product,
      "the complete firmware: offset calibration, Hall decoding, fault monitor and state machine around the "
      "loops. Needs converters in [sensors] and thresholds in [protection]"},
@@ -94,7 +94,8 @@ inline constexpr Choice<Arithmetic> arithmetic_choices[] = {
 };
 inline constexpr Choice<CurrentLoopType> current_loop_choices[] = {
     {"pi", CurrentLoopType::pi, "discrete PI with clamped output, one step per control period"},
-    {"hysteresis", CurrentLoopType::hysteresis, "on below the band, off above it"},
+    {"hysteresis", CurrentLoopType::hysteresis,
+     "on-off control: the switch turns on below the band and off above the band"},
     {"deadbeat", CurrentLoopType::deadbeat,
      "the voltage that brings a winding with the sheet's R and L to its reference, one period after the "
      "answer begins"},
@@ -105,19 +106,21 @@ inline constexpr Choice<CurrentFeedback> current_feedback_choices[] = {
      "the current of the phase that conducts before and after a commutation: the loop reacts later than with the mean, and the torque dips deeper"},
 };
 inline constexpr Choice<CurrentCommutation> current_commutation_choices[] = {
-    {"plain", CurrentCommutation::plain, "the loop goes on"},
+    {"plain", CurrentCommutation::plain, "the loop continues unchanged"},
     {"duty-step", CurrentCommutation::duty_step,
      "the loop pauses; the duty keeps the staying phase's current constant while the current moves between "
      "the other two. Best with pwm.pattern = \"pwm-on\" or \"pwm-on-pwm\"; other patterns do not remove the current's peak"},
     {"overlap", CurrentCommutation::overlap,
-     "as duty-step; where duty 1 is too small, the leaving phase's leg supplies the missing voltage"},
+     "as duty-step; where even duty 1 is too small, the leaving phase's leg supplies the missing voltage"},
 };
 inline constexpr Choice<SpeedOutput> speed_output_choices[] = {
-    {"current", SpeedOutput::current, "a part of the full torque, for the current loop within"},
-    {"duty", SpeedOutput::duty, "the duty itself: no current is measured, none is limited (thesis 6.2.2)"},
+    {"current", SpeedOutput::current,
+     "a part of the full torque, which the inner current loop receives as its reference"},
+    {"duty", SpeedOutput::duty, "the duty: no current is measured or limited (thesis 6.2.2)"},
 };
 inline constexpr Choice<SpeedLaw> speed_law_choices[] = {
-    {"pi", SpeedLaw::pi, "proportional and integral of the error, in one of the forms below"},
+    {"pi", SpeedLaw::pi,
+     "proportional and integral part of the error, in one of the forms of control.speed.form"},
     {"state-feedback", SpeedLaw::state_feedback,
      "linear-quadratic, on speed and torque, with an observer for the load; its model has inertia, "
      "friction and the torque's delay"},
@@ -125,12 +128,11 @@ inline constexpr Choice<SpeedLaw> speed_law_choices[] = {
      "active disturbance rejection: an observer estimates all accelerations except the full torque's, and "
      "the controller compensates them"},
     {"sliding-mode", SpeedLaw::sliding_mode,
-     "the full torque against each deviation from the course of a drive without load; in a boundary layer, "
-     "torque in proportion to the deviation"},
+     "sliding mode: the full torque against each deviation from the motion of a drive without load; in a boundary layer, torque in proportion to the deviation"},
 };
 inline constexpr Choice<SpeedForm> speed_form_choices[] = {
     {"incremental", SpeedForm::incremental,
-     "each sample adds to the last output, which is kept within its limit: nothing can wind up"},
+     "velocity form: each sample adds to the last output, which is kept within its limit, so that nothing can wind up"},
     {"positional", SpeedForm::positional,
      "kp times the error, plus the integral, minus a derivative; anti_windup sets how the integral follows the limit"},
 };
@@ -140,13 +142,13 @@ inline constexpr Choice<HysteresisOn> hysteresis_choices[] = {
 };
 inline constexpr Choice<Comparator> comparator_choices[] = {
     {"event", Comparator::event, "acts at the instant at which the current leaves the band"},
-    {"sampled", Comparator::sampled, "compares once per control period"},
+    {"sampled", Comparator::sampled, "compares the current with the band once per control period"},
 };
 inline constexpr Choice<Shape> shape_choices[] = {
     {"constant", Shape::constant, "value throughout"},
     {"steps", Shape::steps, "values[n] applies from times_s[n] on"},
-    {"square", Shape::square, "high in the first half of each period, low in the second"},
-    {"ramp", Shape::ramp, "from start to end in a straight line, from begin_s until end_s or at slope"},
+    {"square", Shape::square, "the value high in the first half of each period, low in the second half"},
+    {"ramp", Shape::ramp, "a straight line from start to end, from begin_s until end_s or at the rate slope"},
     {"sine", Shape::sine, "offset + amplitude sin(360 deg frequency_Hz t + phase_deg)"},
     {"trapezoid", Shape::trapezoid,
      "from start to end at a rate that rises with acceleration, stays at slope and falls again: the usual "
@@ -161,7 +163,7 @@ inline constexpr Choice<DriveRequest> request_choices[] = {
     {"none", DriveRequest::none, "nothing new"},
     {"off", DriveRequest::off, "ends the request to run: the drive brakes, then turns off"},
     {"on", DriveRequest::on, "raises the request to run"},
-    {"clear", DriveRequest::clear, "clears a fault whose causes are gone"},
+    {"clear", DriveRequest::clear, "clears a fault if its cause has ended"},
 };
 inline constexpr Choice<Distribution> distribution_choices[] = {
     {"uniform", Distribution::uniform, "all values within the half width are equally likely"},

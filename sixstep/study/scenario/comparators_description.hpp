@@ -10,16 +10,16 @@ inline constexpr base::Choice<rig::CrossingReference> crossing_reference_choices
     {"virtual-star", rig::CrossingReference::virtual_star,
      "the mean of the three filtered terminals, as three equal resistors make it"},
     {"half-bus", rig::CrossingReference::half_bus,
-     "half the bus, with the same filter: valid while the pair is on, so the filter must settle within "
-     "half a pulse"},
+     "half the bus voltage, with the same filter: valid while the driven pair is on, so the filter must settle within half a pulse"},
 };
 
 inline void describe(base::Visitor& v, Comparators& s) {
-  v.value("bandwidth_Hz", s.bandwidth_Hz,
-          {.meaning = "bandwidth of the first-order low-pass in front of each comparator; comparators need "
-                      "one",
-           .unit = "Hz",
-           .range = base::between(1, 1e6)});
+  v.value(
+      "bandwidth_Hz", s.bandwidth_Hz,
+      {.meaning =
+           "bandwidth of the first-order low-pass in front of each comparator; a comparator needs a low-pass",
+       .unit = "Hz",
+       .range = base::between(1, 1e6)});
   v.choice("against", s.against, crossing_reference_choices,
            {.meaning = "voltage that each terminal is compared with"});
   v.value("offset_V", s.offset_V,

@@ -23,25 +23,25 @@ struct GainMeanings {
 inline constexpr GainMeanings current_gain_meanings{
     "gain on the present error of (d1 z + d0)/(z - 1), V/A, with d0",
     "gain on the previous error of (d1 z + d0)/(z - 1), V/A, with d1",
-    "proportional gain, V/A, with ki or ki_per_s: kp = d1",
-    "integral gain per sample, V/A, with kp: ki = d1 + d0",
-    "integral gain per second, V/A per s, with kp, as other tools give it: ki = ki_per_s times pwm.period_s"};
+    "proportional gain, V/A, given with ki or ki_per_s; equal to d1",
+    "integral gain per sample, V/A, given with kp; equal to d1 + d0",
+    "integral gain per second, V/A per s, given with kp, as in other tools; ki = ki_per_s times pwm.period_s"};
 inline constexpr GainMeanings speed_gain_meanings{
     "gain on the present error of (d1 z + d0)/(z - 1), full output per rad/s, with d0",
     "gain on the previous error of (d1 z + d0)/(z - 1), full output per rad/s, with d1",
-    "proportional gain, full output per rad/s, with ki or ki_per_s: kp = d1",
-    "integral gain per sample, full output per rad/s, with kp: ki = d1 + d0",
-    "integral gain per second, full output per rad, with kp, as other tools give it: ki = ki_per_s times pwm.period_s"};
+    "proportional gain, full output per rad/s, given with ki or ki_per_s; equal to d1",
+    "integral gain per sample, full output per rad/s, given with kp; equal to d1 + d0",
+    "integral gain per second, full output per rad, given with kp, as in other tools; ki = ki_per_s times pwm.period_s"};
 
 template <class Loop>
 void describe_gains(base::Visitor& v, Loop& s, const GainMeanings& of) {
   v.value("settle_s", s.settle_s,
-          {.meaning = "settling time for which the poles are placed, with damping",
+          {.meaning = "settling time for which the poles are placed, given with damping",
            .unit = "s",
            .range = above(0)});
-  v.value(
-      "damping", s.damping,
-      {.meaning = "damping of the placed pole pair, with settle_s", .range = base::Range{0, 1, false, true}});
+  v.value("damping", s.damping,
+          {.meaning = "damping of the placed pole pair, given with settle_s",
+           .range = base::Range{0, 1, false, true}});
   v.value("d1", s.d1, {.meaning = of.d1});
   v.value("d0", s.d0, {.meaning = of.d0});
   v.value("kp", s.kp, {.meaning = of.kp});
@@ -55,13 +55,14 @@ inline void describe(base::Visitor& v, CurrentLoop& s) {
   v.value(
       "band_A", s.band_A,
       {.meaning = "hysteresis: half width of the band around the reference", .unit = "A", .range = above(0)});
-  v.choice("on", s.on, hysteresis_choices, {.meaning = "hysteresis: current that is compared with the band"});
+  v.choice("on", s.on, hysteresis_choices,
+           {.meaning = "hysteresis: which current is compared with the band"});
   v.choice("comparator", s.comparator, comparator_choices,
-           {.meaning = "hysteresis: instants at which the current is compared with the band"});
+           {.meaning = "hysteresis: when the current is compared with the band"});
   v.choice("feedback", s.feedback, current_feedback_choices,
-           {.meaning = "current that the controller reads"});
+           {.meaning = "which current the PI or deadbeat controller reads"});
   v.choice("commutation", s.commutation, current_commutation_choices,
-           {.meaning = "pi: control during a commutation"});
+           {.meaning = "pi: how the loop acts during a commutation"});
   v.value(
       "correction", s.correction,
       {.meaning =
@@ -82,9 +83,10 @@ inline void describe(base::Visitor& v, CurrentLoop& s) {
 }
 
 inline void describe(base::Visitor& v, SpeedLoop& s) {
-  v.choice("output", s.output, speed_output_choices, {.meaning = "output of the speed controller"});
+  v.choice("output", s.output, speed_output_choices,
+           {.meaning = "quantity that the speed controller commands"});
   v.choice("law", s.law, speed_law_choices,
-           {.meaning = "algorithm of the speed controller; each is designed for settle_s"});
+           {.meaning = "algorithm of the speed controller; each algorithm is designed for settle_s"});
   v.choice("form", s.form, speed_form_choices,
            {.meaning = "form of the speed controller's PI; below the limit both forms are equal"});
   describe_gains(v, s, speed_gain_meanings);
@@ -98,18 +100,19 @@ inline void describe(base::Visitor& v, SpeedLoop& s) {
           {.meaning = "positional: fraction of the clamped excess that each sample subtracts from the "
                       "integral. 0: the integral winds up. Default: ki/kp",
            .range = between(0, 1)});
-  v.value("derivative_s", s.derivative_s,
-          {.meaning = "positional: derivative time; kp times it, times the measured acceleration, is "
-                      "subtracted from the output",
-           .unit = "s",
-           .range = above(0)});
+  v.value(
+      "derivative_s", s.derivative_s,
+      {.meaning =
+           "positional: derivative time; kp times this time, times the measured acceleration, is subtracted from the output",
+       .unit = "s",
+       .range = above(0)});
   v.value("derivative_filter_s", s.derivative_filter_s,
           {.meaning = "time constant that smooths the derivative. Default: a tenth of derivative_s",
            .unit = "s",
            .range = from(0)});
   v.value("setpoint_weight", s.setpoint_weight,
           {.meaning =
-               "positional: fraction of the setpoint in the proportional part. 0: I-P controller. Default: 1",
+               "positional: fraction of the setpoint in the proportional part; 0: I-P controller. Default: 1",
            .range = between(0, 1)});
   v.value(
       "observer_ratio", s.observer_ratio,
@@ -177,18 +180,23 @@ inline void describe(base::Visitor& v, FullScale& s) {
        .unit = "A",
        .range = above(0)});
   v.value("voltage_V", s.voltage_V,
-          {.meaning = "largest voltage. Default: supply.voltage_V", .unit = "V", .range = above(0)});
-  v.value("speed_rad_s", s.speed_rad_s,
-          {.meaning = "largest speed and difference of speeds. Default: speed without load and loss plus the "
-                      "largest reference",
-           .unit = "rad/s",
-           .range = above(0),
-           .also = words::speed});
-  v.value("position_deg", s.position_deg,
-          {.meaning = "largest position and difference of positions. Default: twice the largest reference",
-           .unit = "deg",
-           .range = above(0),
-           .also = words::full_position});
+          {.meaning = "largest voltage that a number represents. Default: supply.voltage_V",
+           .unit = "V",
+           .range = above(0)});
+  v.value(
+      "speed_rad_s", s.speed_rad_s,
+      {.meaning =
+           "largest speed and difference of speeds that a number represents. Default: speed without load and loss plus the largest reference",
+       .unit = "rad/s",
+       .range = above(0),
+       .also = words::speed});
+  v.value(
+      "position_deg", s.position_deg,
+      {.meaning =
+           "largest position and difference of positions that a number represents. Default: twice the largest reference",
+       .unit = "deg",
+       .range = above(0),
+       .also = words::full_position});
 }
 
 inline void describe(base::Visitor& v, Regeneration& s) {
@@ -212,11 +220,13 @@ inline void describe(base::Visitor& v, Limits& s) {
                       "it by a quarter, all gates are off until the next sample",
            .unit = "A",
            .range = above(0)});
-  v.value("torque_Nm", s.torque_Nm,
-          {.meaning = "the same bound as a torque, divided by K_t; the lower bound applies",
-           .unit = "N m",
-           .range = above(0),
-           .also = words::force});
+  v.value(
+      "torque_Nm", s.torque_Nm,
+      {.meaning =
+           "bound on the current reference as a torque, which K_t converts to a current; the lower of the two bounds applies",
+       .unit = "N m",
+       .range = above(0),
+       .also = words::force});
   v.value("speed_rad_s", s.speed_rad_s,
           {.meaning = "limit of the speed that the drive's own torque may reach; above it all gates are off, "
                       "unless the drive brakes",
@@ -252,11 +262,12 @@ inline void describe(base::Visitor& v, Advance& s) {
           {.meaning = "electrical angle before the Hall edge at which the pair changes, at every speed",
            .unit = "deg",
            .range = base::Range{0, 60, true, false}});
-  v.value("gain_deg_s_per_rad", s.gain_deg_s_per_rad,
-          {.meaning = "additional electrical angle per rad/s of the shaft; pole pairs x 180/pi x L/R "
-                      "compensates the current's lag",
-           .unit = "deg s/rad",
-           .range = from(0)});
+  v.value(
+      "gain_deg_s_per_rad", s.gain_deg_s_per_rad,
+      {.meaning =
+           "additional electrical angle per rad/s of the shaft; pole pairs times 180/pi times L/R compensates the current's lag",
+       .unit = "deg s/rad",
+       .range = from(0)});
   v.value("limit_deg", s.limit_deg,
           {.meaning = "limit of the total advance, electrical angle",
            .unit = "deg",
@@ -264,7 +275,7 @@ inline void describe(base::Visitor& v, Advance& s) {
 }
 
 inline void describe(base::Visitor& v, Control& s) {
-  v.choice("drive", s.drive, drive_choices, {.meaning = "firmware on the chip"});
+  v.choice("drive", s.drive, drive_choices, {.meaning = "firmware that runs on the chip"});
   v.choice("mode", s.mode, mode_choices,
            {.meaning = "controlled quantity, which determines meaning and unit of the reference"});
   v.choice("arithmetic", s.arithmetic, arithmetic_choices,
@@ -281,12 +292,14 @@ inline void describe(base::Visitor& v, Control& s) {
   v.table("regeneration", s.regeneration,
           {.meaning = "limit of the current that braking returns to the bus"});
   v.table("smooth_chopping", s.smooth_chopping, {.meaning = "chopping without a jump through duty 0"});
-  v.table("advance", s.advance,
-          {.meaning =
-               "product drive: commutation ahead of the Hall edge, at the control tick; 0 is at the edge"});
+  v.table(
+      "advance", s.advance,
+      {.meaning =
+           "product drive: commutation at a control tick ahead of the Hall edge; without it the pair changes at the edge"});
   v.table(
       "sensorless", s.sensorless,
-      {.meaning = "sensorless drive: start and quantity that it follows; designed from the motor's sheet"});
+      {.meaning =
+           "sensorless drive: its start, and the quantity that it follows; designed from the motor's sheet"});
   v.table("field", s.field,
           {.meaning = "field-oriented drive: control of the currents along the magnet and across it"});
   v.table("own", s.own, {.meaning = "the user's controller: its file and its numbers"});

@@ -14,19 +14,20 @@ inline constexpr base::Choice<control::VoltageLimit> voltage_limit_choices[] = {
 };
 
 inline constexpr base::Choice<FieldAngle> field_angle_choices[] = {
-    {"sensors", FieldAngle::sensors, "the sensor that [sensors] names"},
+    {"sensors", FieldAngle::sensors, "the rotor position sensor in sensors.rotor"},
     {"injection", FieldAngle::injection,
      "injection of voltage pulses along the magnet's axis: works from standstill on, with a salient rotor "
      "whose iron saturates"},
     {"observer", FieldAngle::observer,
      "observer of the magnet's flux in the winding; a current turns the rotor until the flux is large enough"},
-    {"injection-observer", FieldAngle::injection_observer, "injection at rest and low speed, observer above"},
+    {"injection-observer", FieldAngle::injection_observer,
+     "injection at rest and low speed, observer above observer_from_rad_s"},
 };
 
 inline constexpr base::Choice<FieldLaw> field_law_choices[] = {
     {"pi", FieldLaw::pi, "a PI controller for each axis; PWM generates the voltage"},
     {"finite-set", FieldLaw::finite_set,
-     "no pulses: three legs keep one of their eight states for a whole period: the state whose predicted current is nearest to its reference"},
+     "no PWM: the three legs keep one of their eight states for a whole period, the state whose predicted current is nearest to its reference"},
 };
 
 inline void describe(base::Visitor& v, Field& s) {
@@ -42,8 +43,8 @@ inline void describe(base::Visitor& v, Field& s) {
            {.meaning = "limit of the voltages of both axes"});
   v.value(
       "decoupling", s.decoupling,
-      {.meaning = "whether the voltages that rotation induces in the axes are added, from the other axis's "
-                  "current and from the magnet"});
+      {.meaning =
+           "whether the controller adds the voltages that rotation induces in the two axes, by the other axis's current and by the magnet"});
   v.value(
       "torque_per_ampere", s.torque_per_ampere,
       {.meaning =
@@ -52,7 +53,7 @@ inline void describe(base::Visitor& v, Field& s) {
       "weakening_A", s.weakening_A,
       {.meaning =
            "largest reference of the current against the magnet (field weakening) where the back-EMF needs "
-           "more than the bus. Default: none; through the diodes a current may flow nevertheless",
+           "more than the bus. Default: no weakening; a current through the diodes may still flow",
        .unit = "A",
        .range = above(0)});
   v.value(
@@ -61,9 +62,10 @@ inline void describe(base::Visitor& v, Field& s) {
            "number of control periods over which the angle is extrapolated until a command acts. Default: "
            "up to the middle of the period in which the command is applied",
        .range = base::between(0, 10)});
-  v.choice("angle", s.angle, field_angle_choices, {.meaning = "source of the magnet's angle"});
+  v.choice("angle", s.angle, field_angle_choices,
+           {.meaning = "where the drive gets the magnet's angle from"});
   v.value("angle_bandwidth_Hz", s.angle_bandwidth_Hz,
-          {.meaning = "bandwidth of the loop that follows the estimated angle. Default: a hundredth of the "
+          {.meaning = "bandwidth of the loop that tracks the estimated angle. Default: a hundredth of the "
                       "control frequency, more if the angle would lag by 5 degrees at full torque",
            .unit = "Hz",
            .range = above(0)});

@@ -13,14 +13,15 @@ using base::from;
 
 inline void describe(base::Visitor& v, Measure& s, bool needs_metric = true) {
   v.choice("metric", s.metric, metric_choices,
-           {.meaning = "figure that is computed from the signal", .required = needs_metric});
+           {.meaning = "name of the figure that is computed from the signal", .required = needs_metric});
   v.choice("signal", s.signal, signal_choices, {.meaning = "signal from which the figure is computed"});
   v.value("from_s", s.from_s,
           {.meaning = "start of the window. Default: the start of the run", .unit = "s", .range = from(0)});
   v.value("to_s", s.to_s,
           {.meaning = "end of the window. Default: the end of the run", .unit = "s", .range = above(0)});
-  v.value("level", s.level,
-          {.meaning = "value to be reached, in the signal's unit", .unit_here = unit_of(s.signal)});
+  v.value(
+      "level", s.level,
+      {.meaning = "value that the signal must reach, in the signal's unit", .unit_here = unit_of(s.signal)});
   v.value(
       "start", s.start,
       {.meaning =
@@ -31,15 +32,17 @@ inline void describe(base::Visitor& v, Measure& s, bool needs_metric = true) {
   v.value("fraction", s.fraction,
           {.meaning = "reach_time_s: fraction of the step from start to level",
            .range = base::Range{0, 1, false, true}});
-  v.value("band", s.band,
-          {.meaning = "settling_time_s: half width of the band as part of the step", .range = above(0)});
-  v.value("tail", s.tail,
-          {.meaning = "steady_error, largest_error: fraction of each level of the reference, at its end, "
-                      "that is evaluated. Default: 0.1; the whole window if from_s is given",
-           .range = base::Range{0, 1, false, true}});
+  v.value(
+      "band", s.band,
+      {.meaning = "settling_time_s: half width of the band, as a fraction of the step", .range = above(0)});
+  v.value(
+      "tail", s.tail,
+      {.meaning =
+           "steady_error, largest_error: last fraction of the duration of each reference level that is evaluated. Default: 0.1; the whole window if from_s is given",
+       .range = base::Range{0, 1, false, true}});
   v.value("frequency_Hz", s.frequency_Hz,
           {.meaning =
-               "thd: frequency of the fundamental. Default: the electrical frequency, followed by the angle",
+               "thd: frequency of the fundamental. Default: the electrical frequency, from the rotor's angle",
            .unit = "Hz",
            .range = base::Range{0, 1e7, false, true}});
   v.value("sampled", s.sampled, {.meaning = "whether only the controller's samples are evaluated"});
@@ -49,10 +52,8 @@ inline void describe(base::Visitor& v, Measure& s, bool needs_metric = true) {
 inline void describe(base::Visitor& v, Requirement& s) {
   describe(v, s.measure);
   const std::string_view unit = figure_unit(s.measure);
-  v.value("min", s.min,
-          {.meaning = "the figure must be at least this, in the figure's unit", .unit_here = unit});
-  v.value("max", s.max,
-          {.meaning = "the figure must be at most this, in the figure's unit", .unit_here = unit});
+  v.value("min", s.min, {.meaning = "lower limit of the figure, in the figure's unit", .unit_here = unit});
+  v.value("max", s.max, {.meaning = "upper limit of the figure, in the figure's unit", .unit_here = unit});
 }
 
 inline void describe(base::Visitor& v, Recording& s, Signal signal) {
@@ -104,10 +105,12 @@ inline void describe(base::Visitor& v, Comparison& s) {
   const bool by_value = s.recording->file.empty();
   describe(v, s.measure, by_value);
   v.value("value", s.value,
-          {.meaning = "value that the source gives, in the figure's unit",
+          {.meaning = "expected value, in the figure's unit",
            .required = by_value,
            .unit_here = figure_unit(s.measure)});
-  v.value("source", s.source, {.meaning = "source of the value", .required = by_value});
+  v.value(
+      "source", s.source,
+      {.meaning = "where the value comes from, such as a data sheet or a publication", .required = by_value});
   describe(v, *s.recording, s.measure.signal);
 }
 

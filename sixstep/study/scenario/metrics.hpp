@@ -67,7 +67,7 @@ struct MetricFact {
 inline constexpr MetricFact metric_facts[] = {
     {MetricKind::final_value, "final", "final", "", "value at the end of the window"},
     {MetricKind::mean, "mean", "mean", "", "mean over the window"},
-    {MetricKind::rms, "rms", "rms", "", "root of the mean square over the window"},
+    {MetricKind::rms, "rms", "rms", "", "root mean square (rms) over the window"},
     {MetricKind::maximum, "max", "maximum of", "", "largest value in the window"},
     {MetricKind::minimum, "min", "minimum of", "", "smallest value in the window"},
     {MetricKind::peak_to_peak, "peak_to_peak", "peak-to-peak", "",

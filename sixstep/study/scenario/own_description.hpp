@@ -16,7 +16,7 @@ inline void describe(base::Visitor& v, Own& s) {
   v.value(
       "controller", s.controller,
       {.meaning =
-           "shared object of the compiled controller, beside this file; it runs as a part of the program"});
+           "shared object of the compiled controller, with its path relative to this file; the controller runs inside the program"});
   v.list("number", s.number, {.meaning = "numbers of the controller that differ from their presets"});
 }
 

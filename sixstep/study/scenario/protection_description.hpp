@@ -9,18 +9,19 @@ namespace sixstep::study {
 
 inline void describe(base::Visitor& v, Align& s) {
   v.value("current_A", s.current_A,
-          {.meaning = "current that aligns the rotor before it runs. Default: no alignment",
+          {.meaning = "current that aligns the rotor before the drive starts. Default: no alignment",
            .unit = "A",
            .range = base::above(0)});
   v.value("longest_s", s.longest_s,
-          {.meaning = "time after which a rotor that is not aligned is a fault",
+          {.meaning = "longest time for the alignment; a rotor that is not aligned by then is a fault",
            .unit = "s",
            .range = base::above(0)});
   v.value("settled_s", s.settled_s,
           {.meaning = "time for which the rotor must stay aligned", .unit = "s", .range = base::from(0)});
   v.value(
       "sector", s.sector,
-      {.meaning = "sector whose pair aligns the rotor, which moves to the edge between the next two sectors",
+      {.meaning =
+           "sector whose driven pair aligns the rotor; the rotor moves to the edge between the next two sectors",
        .range = base::between(0, 5)});
 }
 
@@ -61,7 +62,7 @@ inline void describe_thresholds(base::Visitor& v, Protection& s) {
 inline void describe(base::Visitor& v, Protection& s) {
   using base::from;
   describe_thresholds(v, s);
-  v.table("align", s.align, {.meaning = "alignment of the rotor before it runs"});
+  v.table("align", s.align, {.meaning = "alignment of the rotor before the drive starts"});
   v.value("brake_current_A", s.brake_current_A,
           {.meaning = "braking current after the request to run is removed; 0: the motor coasts",
            .unit = "A",
@@ -73,12 +74,13 @@ inline void describe(base::Visitor& v, Protection& s) {
        .unit = "rad/s",
        .range = from(0),
        .also = words::short_below});
-  v.value("standing_rad_s", s.standing_rad_s,
-          {.meaning = "speed at which braking ends and the bridge turns off; 0: no Hall edge for "
-                      "sensors.timeout_s",
-           .unit = "rad/s",
-           .range = from(0),
-           .also = words::standing});
+  v.value(
+      "standing_rad_s", s.standing_rad_s,
+      {.meaning =
+           "speed at which braking ends and the bridge turns off; 0: braking ends after sensors.timeout_s without a Hall edge",
+       .unit = "rad/s",
+       .range = from(0),
+       .also = words::standing});
   v.value("off_at_s", s.off_at_s,
           {.meaning = "time at which the request to run is removed. Default: never. The request begins at 0",
            .unit = "s",

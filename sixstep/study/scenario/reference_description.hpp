@@ -12,35 +12,40 @@ inline constexpr double shortest_period_s = 1e-9;
 
 inline void describe_moving(base::Visitor& v, Reference& s) {
   v.value("begin_s", s.begin_s,
-          {.meaning = "ramp, trapezoid: time at which it begins",
+          {.meaning = "ramp, trapezoid: time at which the change begins",
            .unit = "s",
            .range = base::between(0, longest_s)});
-  v.value("start", s.start,
-          {.meaning = "ramp, trapezoid: initial value, in the unit of control.mode. Default: the "
-                      "reference's value before it, 0 at first",
-           .mode_unit = "*"});
+  v.value(
+      "start", s.start,
+      {.meaning =
+           "ramp, trapezoid: initial value, in the unit of control.mode. Default: the reference's value before begin_s, 0 at the start of the run",
+       .mode_unit = "*"});
   v.value("end", s.end,
           {.meaning = "ramp, trapezoid: final value, in the unit of control.mode", .mode_unit = "*"});
   v.value("end_s", s.end_s,
-          {.meaning = "ramp: time at which it reaches its final value",
+          {.meaning = "ramp: time at which the ramp reaches its final value",
            .unit = "s",
            .range = base::between(0, longest_s)});
-  v.value("slope", s.slope,
-          {.meaning = "ramp, instead of end_s: its rate, in the unit of control.mode per s, without sign; "
-                      "trapezoid: its largest rate",
-           .range = base::above(0),
-           .mode_unit = "*/s"});
-  v.value("acceleration", s.acceleration,
-          {.meaning = "trapezoid: change of the rate at both ends, in the unit of control.mode per s2",
-           .range = base::above(0),
-           .mode_unit = "*/s2"});
-  v.value("offset", s.offset, {.meaning = "sine: its mean, in the unit of control.mode", .mode_unit = "*"});
+  v.value(
+      "slope", s.slope,
+      {.meaning =
+           "ramp, instead of end_s: rate of the ramp, in the unit of control.mode per s, without sign; trapezoid: largest rate",
+       .range = base::above(0),
+       .mode_unit = "*/s"});
+  v.value(
+      "acceleration", s.acceleration,
+      {.meaning = "trapezoid: slope of the rate at both ends of the move, in the unit of control.mode per s2",
+       .range = base::above(0),
+       .mode_unit = "*/s2"});
+  v.value("offset", s.offset,
+          {.meaning = "sine: mean of the reference, in the unit of control.mode", .mode_unit = "*"});
   v.value("amplitude", s.amplitude,
-          {.meaning = "sine: its peak above the mean, in the unit of control.mode", .mode_unit = "*"});
+          {.meaning = "sine: amplitude, in the unit of control.mode", .mode_unit = "*"});
   v.value("frequency_Hz", s.frequency_Hz,
           {.meaning = "sine: its frequency", .unit = "Hz", .range = base::from(0)});
-  v.value("phase_deg", s.phase_deg,
-          {.meaning = "sine: its phase at the start, 0 where it rises through its mean", .unit = "deg"});
+  v.value(
+      "phase_deg", s.phase_deg,
+      {.meaning = "sine: phase at the start of the run; 0: the sine rises through its mean", .unit = "deg"});
 }
 
 inline void describe(base::Visitor& v, Reference& s) {
@@ -54,22 +59,26 @@ inline void describe(base::Visitor& v, Reference& s) {
   v.value("values", s.values,
           {.meaning = "steps, csv: the references, in the unit of control.mode", .mode_unit = "*"});
   v.value("high", s.high,
-          {.meaning = "square: first half of each period, in the unit of control.mode", .mode_unit = "*"});
+          {.meaning = "square: value in the first half of each period, in the unit of control.mode",
+           .mode_unit = "*"});
   v.value("low", s.low,
-          {.meaning = "square: second half of each period, in the unit of control.mode", .mode_unit = "*"});
+          {.meaning = "square: value in the second half of each period, in the unit of control.mode",
+           .mode_unit = "*"});
   v.value("period_s", s.period_s,
           {.meaning = "square: length of one period", .unit = "s", .range = base::from(shortest_period_s)});
   describe_moving(v, s);
   v.value("file", s.file,
           {.meaning = "csv: a file beside this one, time in s first, then the reference; instead of times_s "
                       "and values"});
-  v.value(
-      "column", s.column,
-      {.meaning = "csv: heading of the column that holds the reference; a table of two columns needs none"});
+  v.value("column", s.column,
+          {.meaning =
+               "csv: heading of the column with the reference; not needed if the file has only two columns"});
   v.choice("interpolation", s.interpolation, interpolation_choices,
            {.meaning = "csv: course of the reference between rows"});
-  v.value("unit", s.unit,
-          {.meaning = "unit of the reference, to be checked: 1, A, rad/s or deg according to control.mode"});
+  v.value(
+      "unit", s.unit,
+      {.meaning =
+           "unit of the reference, which a run compares with the unit of control.mode: 1, A, rad/s or deg"});
 }
 
 }  // namespace sixstep::study

@@ -25,15 +25,15 @@ void describe(base::Visitor& v, Pwm& s) {
           {.meaning = "PWM period, 1 over its frequency, and the controller's sampling period",
            .unit = "s",
            .range = between(shortest_period_s, 1)});
-  v.choice("alignment", s.alignment, alignment_choices, {.meaning = "position of the on-time in the period"});
+  v.choice("alignment", s.alignment, alignment_choices, {.meaning = "where the on-time lies in the period"});
   v.choice("chopping", s.chopping, chopping_choices, {.meaning = "chopped switches"});
   v.choice("pattern", s.pattern, pattern_choices,
-           {.meaning = "chopped switch of the pair, where chopping is soft or complementary"});
-  v.choice("commutation", s.commutation, commutation_choices,
-           {.meaning = "instant at which the driven pair changes"});
-  v.choice("sample", s.sample, sample_choices, {.meaning = "sample instant in the period"});
+           {.meaning = "which switch of the pair is chopped, where chopping is soft or complementary"});
+  v.choice("commutation", s.commutation, commutation_choices, {.meaning = "when the driven pair changes"});
+  v.choice("sample", s.sample, sample_choices, {.meaning = "when the controller samples in the period"});
   v.value("delay_periods", s.delay_periods,
-          {.meaning = "periods from a sample until its result takes effect", .range = between(0, 1)});
+          {.meaning = "control periods from a sample until the command that follows from it takes effect",
+           .range = between(0, 1)});
   v.value("timer_Hz", s.timer_Hz,
           {.meaning = "clock of the PWM timer, which rounds on-times and dead time; 0: not rounded",
            .unit = "Hz",
@@ -77,9 +77,10 @@ void describe(base::Visitor& v, Spread& s) {
            "supply, bridge, load, initial or believed; a Hall edge (sensors.hall_edges_deg[0], the first one), "
            "sensors.hall_offset_deg, or offset_deg of sensors.encoder, absolute or resolver",
        .required = true});
-  v.choice("distribution", s.distribution, distribution_choices, {.meaning = "distribution of the values"});
+  v.choice("distribution", s.distribution, distribution_choices,
+           {.meaning = "probability distribution of the values"});
   v.value("relative", s.relative,
-          {.meaning = "half width (uniform) or standard deviation (normal), as a part of the key's value",
+          {.meaning = "half width (uniform) or standard deviation (normal), as a fraction of the key's value",
            .range = above(0)});
   v.value("absolute", s.absolute,
           {.meaning = "half width or standard deviation in the key's unit, instead of relative",
@@ -87,7 +88,7 @@ void describe(base::Visitor& v, Spread& s) {
            .unit_of = s.key});
   v.value("cut_sigma", s.cut_sigma,
           {.meaning = "normal: standard deviations beyond which no value is drawn", .range = from(1)});
-  v.value("source", s.source, {.meaning = "source of the width"});
+  v.value("source", s.source, {.meaning = "where the width comes from, such as a data sheet"});
 }
 
 void describe(base::Visitor& v, Scenario& s) {
@@ -96,19 +97,21 @@ void describe(base::Visitor& v, Scenario& s) {
       "extends", s.extends,
       {.meaning =
            "a scenario beside this one, or a list of them, whose keys apply where this file does not set them; a later file overrides an earlier file. Lists of tables are appended; an empty list [] or table {} removes the inherited list or table"});
-  v.value("motor", s.motor,
-          {.meaning = "motor file: a path, or a name looked up beside the scenario, in the data folder and "
-                      "in the built-in list",
-           .required = true});
+  v.value(
+      "motor", s.motor,
+      {.meaning =
+           "motor file: a path, or a name that is searched beside the scenario, in the data folder and in the built-in list",
+       .required = true});
   v.value("duration_s", s.duration_s,
           {.meaning = "simulated time",
            .unit = "s",
            .range = base::Range{0, longest_s, false, true},
            .required = true});
   v.value("notes", s.notes, {.meaning = "notes on the purpose of the run, shown in the report"});
-  v.value("not_usable", s.not_usable,
-          {.meaning = "reason for which the design is not usable. A design writes it and each run prints "
-                      "it; while it is present, no header is exported"});
+  v.value(
+      "not_usable", s.not_usable,
+      {.meaning =
+           "reason for which the design is not usable. A design writes this line and each run prints it; while this line is present, no header is exported"});
   v.table("motor_override", s.sheet,
           {.meaning = "values that replace single values of the motor file", .partial = true});
   v.table("believed", s.believed,
@@ -117,7 +120,8 @@ void describe(base::Visitor& v, Scenario& s) {
                       "not"});
   v.table("supply", s.supply, {.meaning = "source of the bus"});
   v.table("bridge", s.bridge, {.meaning = "six switches with antiparallel diodes"});
-  v.table("heat", s.heat, {.meaning = "temperatures that the run simulates; none by default"});
+  v.table("heat", s.heat,
+          {.meaning = "whether the run simulates the temperatures of motor and switches; not by default"});
   v.table("pwm", s.pwm, {.meaning = "modulation, sampling and commutation"});
   v.table("control", s.control, {.meaning = "controlled quantity and its controllers"});
   v.table("sensors", s.sensors, {.meaning = "sensors of the controller; ideal by default"});

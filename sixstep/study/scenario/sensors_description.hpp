@@ -47,8 +47,7 @@ inline constexpr base::Choice<rig::HallAngleFrom> hall_angle_choices[] = {
      "by an angle that is interpolated between edges, minus the effect of the probes' known delay and hysteresis; with "
      "pwm.commutation = \"sample\" it also commutates"},
     {"calibrated", rig::HallAngleFrom::learned_edges,
-     "as interpolated, with the places of the edges measured in the first steady turns; their common "
-     "offset is not measured"},
+     "as interpolated, with the angles of the edges measured in the first steady turns; the common offset of the edges is not measured"},
 };
 inline constexpr base::Choice<SensorShaft> sensor_shaft_choices[] = {
     {"motor", SensorShaft::motor, "the motor's shaft: the sensor commutates"},
@@ -91,14 +90,15 @@ inline void describe(base::Visitor& v, HallBreak& s) {
           {.meaning = "time at which a Hall line sticks. Default: none sticks",
            .unit = "s",
            .range = base::from(0)});
-  v.value("line", s.line, {.meaning = "number of the line, H1 to H3", .range = between(1, 3)});
-  v.choice("level", s.level, level_choices, {.meaning = "level it sticks at"});
+  v.value("line", s.line, {.meaning = "number of the Hall line: 1, 2 or 3", .range = between(1, 3)});
+  v.choice("level", s.level, level_choices, {.meaning = "level at which the line sticks"});
 }
 
 inline void describe_currents(base::Visitor& v, Sensors& s) {
   v.choice("currents", s.currents, current_sensing_choices,
-           {.meaning = "source of the controller's currents"});
-  v.value("adc_bits", s.adc_bits, {.meaning = "bits of the converter", .range = base::between(4, 16)});
+           {.meaning = "how the controller's currents are measured"});
+  v.value("adc_bits", s.adc_bits,
+          {.meaning = "bits of the converters of currents and bus voltage", .range = base::between(4, 16)});
   v.value("current_range_A", s.current_range_A,
           {.meaning = "current at the converter's full scale: it measures from minus this value to plus it",
            .unit = "A",
@@ -112,13 +112,15 @@ inline void describe_currents(base::Visitor& v, Sensors& s) {
           {.meaning = "root mean square of the noise of a sample", .unit = "A", .range = base::from(0)});
   v.value(
       "current_bandwidth_Hz", s.current_bandwidth_Hz,
-      {.meaning = "bandwidth of each amplifier in front of the converter, a first-order lag. Default: no lag",
+      {.meaning =
+           "bandwidth of each current amplifier in front of the converter, a first-order lag. Default: no lag",
        .unit = "Hz",
        .range = base::between(1, 1e9)});
-  v.value("current_delay_s", s.current_delay_s,
-          {.meaning = "age of the current that a sample shows, in addition to that lag",
-           .unit = "s",
-           .range = base::from(0)});
+  v.value(
+      "current_delay_s", s.current_delay_s,
+      {.meaning = "age of the current that a sample shows, in addition to the lag of current_bandwidth_Hz",
+       .unit = "s",
+       .range = base::from(0)});
   v.value("calibrated", s.calibrated,
           {.meaning = "whether the controller measured the offset before the run, in 64 noisy samples"});
   v.value("shunt_settle_s", s.shunt_settle_s,
@@ -145,7 +147,7 @@ inline void describe_probes(base::Visitor& v, Sensors& s) {
   v.choice("hall_spacing", s.hall_spacing, hall_spacing_choices,
            {.meaning = "electrical angle between two Hall probes, degrees"});
   v.value("hall_offset_deg", s.hall_offset_deg,
-          {.meaning = "common electrical angle by which all Hall edges come late",
+          {.meaning = "electrical angle by which all Hall edges come late",
            .unit = "deg",
            .range = base::between(-180, 180)});
   v.value("hall_edges_deg", s.hall_edges_deg,
@@ -154,18 +156,20 @@ inline void describe_probes(base::Visitor& v, Sensors& s) {
                       "differ",
            .unit = "deg",
            .range = base::between(-60, 60)});
-  v.value("hall_hysteresis_deg", s.hall_hysteresis_deg,
-          {.meaning = "hysteresis: angle between the places of a Hall edge forward and backward",
-           .unit = "deg",
-           .range = base::between(0, 59)});
+  v.value(
+      "hall_hysteresis_deg", s.hall_hysteresis_deg,
+      {.meaning =
+           "hysteresis of the probes: angle between a Hall edge in forward rotation and in backward rotation",
+       .unit = "deg",
+       .range = base::between(0, 59)});
   v.value(
       "hall_delay_s", s.hall_delay_s,
       {.meaning =
-           "delay between the rotor's passing of a Hall edge and the edge of its line, such as a filter's",
+           "delay of a Hall line, such as a filter's: from the rotor's passing of the edge angle to the edge at the pin",
        .unit = "s",
        .range = base::between(0, 2e-4)});
   v.value("hall_glitches_Hz", s.hall_glitches_Hz,
-          {.meaning = "mean rate of glitches of a Hall line, at random instants drawn with seed",
+          {.meaning = "mean rate of glitches on each Hall line, at random instants drawn with seed",
            .unit = "Hz",
            .range = base::from(0)});
   v.value("hall_glitch_s", s.hall_glitch_s,
@@ -174,9 +178,9 @@ inline void describe_probes(base::Visitor& v, Sensors& s) {
 
 inline void describe(base::Visitor& v, Sensors& s) {
   describe_currents(v, s);
-  v.choice("bus", s.bus, bus_sensing_choices, {.meaning = "source of the controller's bus voltage"});
+  v.choice("bus", s.bus, bus_sensing_choices, {.meaning = "how the controller's bus voltage is measured"});
   v.value("bus_range_V", s.bus_range_V,
-          {.meaning = "voltage at the converter's upper end", .unit = "V", .range = base::above(0)});
+          {.meaning = "bus voltage at the converter's full scale", .unit = "V", .range = base::above(0)});
   v.value("bus_offset_V", s.bus_offset_V,
           {.meaning = "offset of the converter: reading at zero voltage", .unit = "V"});
   v.value("bus_gain_error", s.bus_gain_error,
@@ -196,17 +200,18 @@ inline void describe(base::Visitor& v, Sensors& s) {
                "for control.sensorless.mismatch",
            .range = base::between(-0.5, 0.5)});
   v.choice("rotor", s.rotor, rotor_sensing_choices,
-           {.meaning = "source of the controller's speed and position"});
+           {.meaning = "sensor from which the controller gets speed and position"});
   v.value("capture_Hz", s.capture_Hz,
           {.meaning = "clock of the timer that captures edges of Hall probes, incremental encoder or "
                       "comparators. One tick of the averaging time is the resolution of the speed",
            .unit = "Hz",
            .range = base::between(1, 1e9)});
-  v.value("speed_edges", s.speed_edges,
-          {.meaning = "number of Hall edges over which a speed is averaged. With 6, one electrical turn, "
-                      "probe errors cancel, and the speed is 3.5 sectors old. 0: 6 if that costs the speed "
-                      "loop at most 22.5 degrees of phase, else 1",
-           .range = base::between(0, 6)});
+  v.value(
+      "speed_edges", s.speed_edges,
+      {.meaning =
+           "number of Hall edges over which a speed is averaged. With 6, one electrical turn, "
+           "probe errors cancel, and the speed is 3.5 sectors old. 0: 6 if the averaging costs the speed loop at most 22.5 degrees of phase, else 1",
+       .range = base::between(0, 6)});
   v.choice("hall_angle", s.hall_angle, hall_angle_choices,
            {.meaning = "method for speed and position between Hall edges, where rotor is \"hall\""});
   v.value(

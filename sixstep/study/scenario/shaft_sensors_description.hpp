@@ -22,18 +22,18 @@ namespace sixstep::rig {
 
 inline void describe(base::Visitor& v, Encoder& s) {
   v.value("lines", s.lines,
-          {.meaning = "number of lines per turn; the timer counts four edges of each",
+          {.meaning = "number of lines per turn; the timer counts four edges of each line",
            .range = base::between(1, 1000000)});
   v.value(
       "pitch_mm", s.pitch_mm,
       {.meaning =
-           "linear motor: length of a line of the scale; two pole pitches are a whole number of lines. One "
-           "index at 0",
+           "linear motor: length of a line of the scale; two pole pitches must be a whole number of lines. The scale has one index, at 0",
        .unit = "mm",
        .range = base::above(0)});
-  v.value("referenced", s.referenced,
-          {.meaning = "whether the index was passed before the run; else the Hall probes commutate until the "
-                      "rotor passes it"});
+  v.value(
+      "referenced", s.referenced,
+      {.meaning =
+           "whether the rotor passed the index before the run; else the Hall probes commutate until the rotor passes the index"});
   v.value("missed_Hz", s.missed_Hz,
           {.meaning = "mean rate of edges that are not counted, at random instants drawn with seed; the next "
                       "index corrects the count",
@@ -64,10 +64,10 @@ inline void describe(base::Visitor& v, AbsoluteEncoder& s) {
 
 inline void describe(base::Visitor& v, Resolver& s) {
   v.value("pole_pairs", s.pole_pairs,
-          {.meaning = "pole pairs of the resolver; the motor's pole pairs are a multiple of this number",
+          {.meaning = "pole pairs of the resolver; the motor's pole pairs must be a multiple of this number",
            .range = base::between(1, 32)});
   v.value("amplitude_V", s.amplitude_V,
-          {.meaning = "peak of either winding at the converter", .unit = "V", .range = base::above(0)});
+          {.meaning = "peak voltage of each winding at the converter", .unit = "V", .range = base::above(0)});
   v.value("excitation_Hz", s.excitation_Hz,
           {.meaning = "frequency of the excitation; if sampled, its half period must be a whole number of "
                       "control periods",
@@ -85,23 +85,25 @@ inline void describe(base::Visitor& v, Resolver& s) {
           {.meaning = "phase angle by which the windings' voltages lead the excitation",
            .unit = "deg",
            .range = base::between(-60, 60)});
-  v.value("sine_phase_deg", s.sine_phase_deg,
-          {.meaning = "phase angle of the sine winding, if it differs",
-           .unit = "deg",
-           .range = base::between(-60, 60)});
+  v.value(
+      "sine_phase_deg", s.sine_phase_deg,
+      {.meaning =
+           "phase angle by which the sine winding's voltage leads the excitation, if it differs from the cosine winding's",
+       .unit = "deg",
+       .range = base::between(-60, 60)});
   v.value(
       "calibrated", s.calibrated,
       {.meaning = "sampled: whether the drive corrects imbalance, angle error and phases of this resolver"});
   v.value("noise_V", s.noise_V,
           {.meaning = "root mean square of the noise of a sample", .unit = "V", .range = base::from(0)});
   v.value("bandwidth_Hz", s.bandwidth_Hz,
-          {.meaning = "bandwidth of the tracking loop, which gives angle and speed",
+          {.meaning = "bandwidth of the tracking loop, which computes angle and speed",
            .unit = "Hz",
            .range = base::above(0)});
   v.value("damping", s.damping, {.meaning = "damping of the tracking loop", .range = base::between(0.1, 10)});
-  v.value("bits", s.bits,
-          {.meaning = "bits of the angle that the tracking loop gives; tracking: at least 10",
-           .range = base::between(8, 16)});
+  v.value(
+      "bits", s.bits,
+      {.meaning = "bits of the tracking loop's angle; tracking: at least 10", .range = base::between(8, 16)});
   v.choice("reading", s.reading, study::resolver_reading_choices,
            {.meaning = "device that computes the angle from the windings"});
   v.value("converter_Hz", s.converter_Hz,

@@ -163,13 +163,14 @@ struct Checker {
           "is not a number that may differ from drive to drive: one of motor_override, supply, bridge, load, initial or believed, or a place of a Hall edge or a sensor",
           "write it as table.key, for example \"supply.voltage_V\"; the help on spread.key lists the motor's keys");
     if (!at.number)
-      return add(where + ".key", "\"" + spread.key + "\"", "has no value that could differ",
+      return add(where + ".key", "\"" + spread.key + "\"",
+                 "has no value in the motor file that could differ from drive to drive",
                  spread.key == torque_key     ? "spread back_emf_mV_s, which the sheet gives"
                  : spread.key == back_emf_key ? "spread torque_constant_mNm_A, which the sheet gives"
                                               : "give " + spread.key + " its nominal value first");
     if (!spread.relative == !spread.absolute)
       return add(where + (spread.relative ? ".absolute" : ".relative"), "",
-                 spread.relative ? "contradicts relative: the width is given twice" : "is missing",
+                 spread.relative ? "contradicts relative: both keys give the width" : "is missing",
                  "give relative (as a part of the value) or absolute (in the key's unit)");
     if (spread.relative && *at.number == 0.0)
       return add(where + ".relative", base::written(*spread.relative),
@@ -182,11 +183,11 @@ struct Checker {
         width(spread, *at.number) * (spread.distribution == Distribution::uniform ? 1.0 : spread.cut_sigma);
     for (const double end : {*at.number - reach, *at.number + reach})
       if (!at.range.holds(end))
-        return add(
-            where + (spread.relative ? ".relative" : ".absolute"),
-            base::written(spread.relative ? *spread.relative : *spread.absolute),
-            "lets " + spread.key + " reach " + base::six_digits(end) + ", outside the key's range",
-            spread.distribution == Distribution::uniform ? "lower it" : "lower it, or lower cut_sigma");
+        return add(where + (spread.relative ? ".relative" : ".absolute"),
+                   base::written(spread.relative ? *spread.relative : *spread.absolute),
+                   "lets " + spread.key + " reach " + base::six_digits(end) + ", outside the key's range",
+                   spread.distribution == Distribution::uniform ? "lower this value"
+                                                                : "lower this value, or lower cut_sigma");
   }
 
   void add(std::string where, std::string value, std::string limit, std::string cure) {
@@ -262,7 +263,7 @@ base::Problems check_spread(const Scenario& scenario) {
     const auto end = scenario.spread.begin() + static_cast<std::ptrdiff_t>(n);
     if (std::any_of(scenario.spread.begin(), end, same))
       checker.add(where + ".key", "\"" + scenario.spread[n].key + "\"", "is spread already",
-                  "keep one entry per quantity");
+                  "remove all entries of this quantity except one");
     else
       checker.check(scenario.spread[n], where);
   }

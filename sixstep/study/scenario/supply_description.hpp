@@ -11,11 +11,13 @@ using base::between;
 using base::from;
 
 inline void describe_battery(base::Visitor& v, Supply& s) {
-  v.value("battery_charges", s.battery_charges,
-          {.meaning = "relative charges of a battery at which battery_voltages_V are given, rising, 1: full",
-           .range = between(0, 1)});
+  v.value(
+      "battery_charges", s.battery_charges,
+      {.meaning =
+           "relative charges of the battery at which battery_voltages_V gives the voltages, rising; 1: full",
+       .range = between(0, 1)});
   v.value("battery_voltages_V", s.battery_voltages_V,
-          {.meaning = "open-circuit voltages at battery_charges, linear between the points",
+          {.meaning = "open-circuit voltages at battery_charges; linear between the points",
            .unit = "V",
            .range = above(0)});
   v.value("battery_capacity_Ah", s.battery_capacity_Ah,
@@ -23,43 +25,54 @@ inline void describe_battery(base::Visitor& v, Supply& s) {
   v.value(
       "battery_charge", s.battery_charge,
       {.meaning = "charge of the battery at the start, relative to the full charge", .range = between(0, 1)});
-  v.value("battery_recovery_ohm", s.battery_recovery_ohm,
-          {.meaning = "resistance of the part that recovers slowly after a load, in series with "
-                      "resistance_ohm; 0: none",
-           .unit = "ohm",
-           .range = from(0)});
-  v.value("battery_recovery_F", s.battery_recovery_F,
-          {.meaning = "capacitance across battery_recovery_ohm", .unit = "F", .range = from(0)});
+  v.value(
+      "battery_recovery_ohm", s.battery_recovery_ohm,
+      {.meaning =
+           "resistance of the part of the battery's voltage that recovers slowly after a load, in series with resistance_ohm; 0: no such part",
+       .unit = "ohm",
+       .range = from(0)});
+  v.value(
+      "battery_recovery_F", s.battery_recovery_F,
+      {.meaning =
+           "capacitance parallel to battery_recovery_ohm; their product is the time constant of the recovery",
+       .unit = "F",
+       .range = from(0)});
 }
 
 inline void describe(base::Visitor& v, Supply& s) {
-  v.choice("source", s.source, source_choices,
-           {.meaning = "source of the bus; with a battery or mains, voltage_V is the voltage for which the "
-                       "drive is designed"});
+  v.choice(
+      "source", s.source, source_choices,
+      {.meaning =
+           "kind of the bus's source; with a battery or mains, voltage_V is the voltage for which the drive is designed"});
   v.value("voltage_V", s.voltage_V, {.meaning = "voltage of the source", .unit = "V", .range = above(0)});
-  v.value("resistance_ohm", s.resistance_ohm,
-          {.meaning = "resistance of the source, feeding capacitance_F; 0 with no capacitance is a stiff bus",
-           .unit = "ohm",
-           .range = from(0)});
+  v.value(
+      "resistance_ohm", s.resistance_ohm,
+      {.meaning = "resistance between the source and the bus capacitor; 0 without capacitance_F: stiff bus",
+       .unit = "ohm",
+       .range = from(0)});
   v.value("capacitance_F", s.capacitance_F,
-          {.meaning = "bus capacitor behind resistance_ohm; 0: stiff bus", .unit = "F", .range = from(0)});
+          {.meaning = "capacitance of the bus capacitor, behind resistance_ohm; 0: stiff bus",
+           .unit = "F",
+           .range = from(0)});
   v.value("sinks", s.sinks,
           {.meaning = "whether the source takes current back; false: regeneration raises the bus voltage"});
   v.value("inductance_H", s.inductance_H,
           {.meaning = "inductance between source and bus capacitor, in series with resistance_ohm",
            .unit = "H",
            .range = from(0)});
-  v.value("brake_resistance_ohm", s.brake_resistance_ohm,
-          {.meaning = "brake chopper: resistor across the bus from brake_on_V until brake_off_V; 0: none",
-           .unit = "ohm",
-           .range = from(0)});
+  v.value(
+      "brake_resistance_ohm", s.brake_resistance_ohm,
+      {.meaning =
+           "brake chopper: resistor across the bus, which is on from brake_on_V until brake_off_V; 0: no brake chopper",
+       .unit = "ohm",
+       .range = from(0)});
   v.value("brake_on_V", s.brake_on_V,
           {.meaning = "bus voltage above which the brake resistor is on", .unit = "V", .range = from(0)});
   v.value(
       "brake_off_V", s.brake_off_V,
       {.meaning = "bus voltage below which the brake resistor is off again", .unit = "V", .range = from(0)});
   v.value("sink_limit_A", s.sink_limit_A,
-          {.meaning = "largest current that a source with sinks = false still takes back",
+          {.meaning = "largest current that a source with sinks = false takes back",
            .unit = "A",
            .range = from(0)});
   v.value("capacitor_resistance_ohm", s.capacitor_resistance_ohm,

@@ -245,9 +245,8 @@ base::Result<double> Session::change(At at) {
   if (!compiled) return compiled.problems();
   if (compiled->general && !s.compiled->general)
     return base::Problem{
-        "at", "", "needs a function that the session's kernel does not have",
-        "begin with an [[at]] at time_s = 0 with bridge.phases = \"abc\": it changes nothing and selects "
-        "the general kernel"};
+        "at", "", "needs the general kernel, and the session runs on the lean kernel",
+        "begin the scenario with an [[at]] at time_s = 0 with bridge.phases = \"abc\": this event changes nothing, but selects the general kernel"};
   if (!same_past(*s.scenario, *s.compiled, *compiled, s.now()))
     return base::Problem{"reference", "",
                          "would change the drive's limits, which are fixed at the start of the session",
@@ -276,7 +275,7 @@ base::Result<Outcome> Session::close(bool replay) {
       if (!compiled || !same_past(cut, *s.compiled, *compiled, s.now()))
         return base::Problem{"duration_s", base::written(end.seconds()),
                              "is before a reference for which the drive's limits were designed",
-                             "run the session to its end"};
+                             "run the session to its end, or change the reference earlier"};
       compiled->board.chip = s.compiled->board.chip;
       rig::Timeline timeline = std::move(compiled->timeline);
       if (base::Problems problems = s.run->take(cut, *compiled, std::move(timeline)); !problems.empty())

@@ -236,7 +236,7 @@ TEST(Bode, ABandHasNoLinearLoop) {
   const auto b = analysis::study_bode(s);
   ASSERT_TRUE(b) << to_string(b.problems()[0]);
   EXPECT_FALSE(b->designed);
-  EXPECT_EQ(b->not_linear, "the current loop is a hysteresis, which is not linear");
+  EXPECT_EQ(b->not_linear, "the current controller is a hysteresis, which is not linear");
   EXPECT_TRUE(b->measured.crossover_rad_s);
 }
 

@@ -272,7 +272,7 @@ TEST(Identify, WhatIsNoLogIsToldWhy) {
               }),
               HasSubstr("hall1 and hall2 change together"));
   EXPECT_THAT(changed([](HallLog& l) { l.t_s.resize(200), l.codes.resize(200); }),
-              HasSubstr("18 are needed, each of the six at least twice"));
+              HasSubstr("18 are needed, each of the six codes at least twice"));
   EXPECT_THAT(changed([](HallLog& l) { l.t_s.resize(1), l.codes.resize(1); }),
               HasSubstr("time = 1 rows are too few"));
   EXPECT_THAT(changed([](HallLog& l) { l.t_s[50] = l.t_s[49]; }), HasSubstr("in row 51 does not rise"));

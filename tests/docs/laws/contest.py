@@ -78,11 +78,11 @@ def judge(test, spot):
 
 
 def sentences(test, spot, nominal):
-    """A sentence such as "(6.82 A, the next 6 % more)": the number is in the table, in the row of the same
+    """A sentence such as "(6.82 A; the next controller: 6 % more)": the number is in the table, in the row of the same
     controller."""
     text = re.sub(r"\s+", " ", spot.text[spot.text.rfind("* least value of"):])
     for controller in nominal:
         m = re.search(rf"{re.escape(controller)} has these least values: (.*?)\. ", text)
-        for told in re.findall(r"\(([\d.]+ [^,]+), the next", m.group(1)) if m else ():
+        for told in re.findall(r"\(([\d.]+ [^;]+); the\s+next\s+controller", m.group(1)) if m else ():
             cells = [c.removesuffix(" *") for c in nominal[controller].values()]
             test.assertIn(told, cells, f"{spot}: {controller}")

@@ -85,7 +85,7 @@ TEST(ContestWords, WhoeverStartsBeyondTheLimitWinsNothing) {
       text::contest_notes(c),
       ElementsAre(
           name(1) +
-          " starts with a peak of 6.1 A, 1.5 times the current of the torque limit. Commutation and ripple explain at most 6 A, so that none of its figures counts as the least"));
+          " starts with a peak of 6.1 A, 1.5 times the current of the torque limit. Commutation and ripple explain a peak of at most 6 A. None of the controller's figures counts as the least"));
   for (const text::ContestTable& table : text::contest_tables(c))
     for (const std::string& cell : table.rows.back()) EXPECT_THAT(cell, Not(HasSubstr("*")));
 }
@@ -96,9 +96,9 @@ TEST(ContestWords, AgainstNothingStandsAValue) {
   EXPECT_THAT(words({{0, 0.0, 1.0}, {1, 0.005, 2.0}}),
               Contains(HasSubstr(phrase + " (0 ms, the next 5 ms)")));
   const double never = std::numeric_limits<double>::infinity();
-  EXPECT_THAT(
-      words({{0, never, 1.0}, {1, 0.005, 2.0}}),
-      Contains(HasSubstr(name(1) + " has these least values: " + phrase + " (5 ms, the others never)")));
+  EXPECT_THAT(words({{0, never, 1.0}, {1, 0.005, 2.0}}),
+              Contains(HasSubstr(name(1) + " has these least values: " + phrase +
+                                 " (5 ms; the other controllers never settle)")));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

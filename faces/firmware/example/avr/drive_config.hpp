@@ -16,7 +16,7 @@
 //   mean of the samples at 5 A: 4.75 .. 5.25 A required, 4.96589 A measured
 //   greatest current: <= 9 A required, 6.83261 A measured
 // Note: control.drive = "lean" has no protection: the bridge stays on at over-current, over-voltage and a stall; add a protection to your firmware, or export control.drive = "product" with [protection]
-// Note: cleared for a supply that takes current back (supply.sinks = true). This stiff bus cannot rise; if your supply takes no current back, set supply.resistance_ohm, supply.capacitance_F and sinks = false
+// Note: cleared for a supply that takes current back (supply.sinks = true). The voltage of this stiff bus cannot rise; if your supply takes no current back, set supply.resistance_ohm, supply.capacitance_F and supply.sinks = false
 // Assumptions of that run:
 //   supply    24 V, stiff, takes current back
 //   bridge    switches of 0.01 ohm, diodes of 0.7 V and 0 ohm, dead time 1e-06 s
@@ -84,7 +84,7 @@ inline constexpr bool command_delayed = true;                             // tru
 inline constexpr bool sampled_in_middle = true;                           // true: sample in the middle of the period; false: at its start
 inline constexpr int adc_bits = 10;                                       // bits of each current converter
 inline constexpr double adc_amperes_per_count = 0x1.4p-6;                 // 0.0195312 A
-inline constexpr double setpoint_range = 0x1.4666666666666p+2;            // 5.1 in the mode's unit, at each end of a potentiometer
+inline constexpr double setpoint_range = 0x1.4666666666666p+2;            // 5.1: setpoint at each end of a potentiometer, in the mode's unit
 
 constexpr sixstep::control::DriveConfig<Scalar> make_drive() {
   using namespace sixstep::control;

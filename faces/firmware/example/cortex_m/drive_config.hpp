@@ -21,7 +21,7 @@
 //   swing at 70 rad/s: <= 7 rad/s required, 0.105367 rad/s measured
 //   greatest current: <= 10 A required, 9.13387 A measured
 // Warnings of that run:
-//   control.speed.torque_limit_Nm divided by K_t lets 5.82 A flow, 2.5 times the nominal current of 2.33 A: by the sheet's thermal values the winding withstands this current for 12.8 s from 25 degC, and by the worse ends of the thermal ranges for 6.83 s; no protection of the drive ends this current while the rotor turns: lower the limit, or apply the load for less than that time
+//   control.speed.torque_limit_Nm divided by K_t lets 5.82 A flow, 2.5 times the nominal current of 2.33 A: by the sheet's thermal values the winding withstands this current for 12.8 s from 25 degC, and by the worse ends of the thermal ranges for 6.83 s; no protection of the drive ends this current while the rotor turns: lower the current limit, or apply the load for less than this time
 // Note: setpoint_limit = 300 rad/s is the largest reference of this scenario, and the drive limits its setpoint to this value; set [reference] to the largest setpoint of your firmware
 // Assumptions of that run:
 //   supply    24 V behind 0.05 ohm, 0.002 F at the bridge, takes no current back
@@ -48,7 +48,7 @@
 //   ATmega2560  q31            11568     975 cycles            20552     289 bytes
 //   ATmega2560  float           9508     976 cycles            11872     285 bytes
 // The counts cover the control code only; an image also contains the board's code.
-// Note: a control period of 30 us is shorter than the ATmega2560's image needs (100 us). Below 69.6 us the STM32F303's image may apply a command one period late: check `missed`.
+// Note: a control period of 30 us is shorter than the shortest period of the ATmega2560's image (100 us). Below 69.6 us the STM32F303's image may apply a command one period late: look for `missed` above 0 in its log.
 #pragma once
 #if __cplusplus < 201709L && !defined(_MSC_VER)
 #error "C++20 is needed, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) lack; use clang 19 for the AVR"

@@ -247,7 +247,7 @@ base::Problems find_pole_pairs(const EmfRequest& request, const HarmonicFit& fit
        .limit = "with " + base::rounded(fit.phase.rate[0] / base::turn_rad, 5) + " Hz makes " +
                 base::rounded(pairs, 4) + " pole pairs" +
                 (request.pole_pairs ? ", not " + std::to_string(*request.pole_pairs) : ", no whole number"),
-       .cure = request.pole_pairs ? "remove the less certain value: the speed or the pole pairs"
+       .cure = request.pole_pairs ? "leave out the speed or the pole pairs: the value that is less certain"
                                   : "give the pole pairs instead of the speed"}};
 }
 

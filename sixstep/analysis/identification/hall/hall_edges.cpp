@@ -57,7 +57,7 @@ base::Problems dead_lines(const std::vector<Stay>& stays, const Codes& codes) {
          .value = never ? (high ? "1" : "0") : "",
          .limit = never ? "in every row, while another line changes " + times(most_of_all)
                         : "changes " + times(changes[line]) + ", another line " + times(most),
-         .cure = "check its wire, its pull-up and its probe's supply, or name the right column"});
+         .cure = "check this line's wire, pull-up and probe, or name another column for this line"});
   }
   return problems;
 }
@@ -230,7 +230,7 @@ base::Problems too_little(const HallEdges& e) {
   if (e.edges.size() < wanted || *std::min_element(e.seen.begin(), e.seen.end()) < 2)
     return {{.where = "hall1, hall2, hall3",
              .limit = "pass " + std::to_string(e.edges.size()) + " edges; " + std::to_string(wanted) +
-                      " are needed, each of the six at least twice",
+                      " are needed, each of the six codes at least twice",
              .cure = "turn the shaft by at least " + turns +
                      " without reversing; one turn of the shaft has an electrical turn for each pole pair"}};
   constexpr double fewest_samples = 2.0;

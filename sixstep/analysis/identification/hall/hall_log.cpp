@@ -11,7 +11,7 @@ base::Problems check(const HallLog& log) {
     return {{.where = "time",
              .value = std::to_string(rows) + " rows",
              .limit = "are too few",
-             .cure = "record Hall lines while the shaft turns"}};
+             .cure = "record the Hall lines while the shaft turns"}};
   if (base::Problems wrong = check_times(log.t_s); !wrong.empty()) return wrong;
   if (log.codes.size() != rows)
     return {{.where = "hall",

@@ -239,18 +239,18 @@ base::Result<Overlay> overlay(const std::string& name, const study::Trace& simul
   }
   if (!out.columns.empty()) return out;
   const bool few = out.inside < fewest_compared && there && here && !there->empty() && !here->empty();
-  return base::Problem{.where = name + ":",
-                       .limit = few ? "has " + std::to_string(out.inside) + " of " +
-                                          std::to_string(out.rows) + " rows in the simulated time, " +
-                                          base::six_digits(there->front()) + " to " +
-                                          base::six_digits(there->back()) + " s; the log covers " +
-                                          base::six_digits(here->front() + shift_s) + " to " +
-                                          base::six_digits(here->back() + shift_s) + " s, and " +
-                                          std::to_string(fewest_compared) + " are needed"
-                                    : "has no column with " + std::to_string(fewest_compared) +
-                                          " rows at which this run has a value",
-                       .cure = few ? "check the unit of the log's time, or give the offset of its clock"
-                                   : "name columns that the scenario's drive has"};
+  return base::Problem{
+      .where = name + ":",
+      .limit = few ? "has " + std::to_string(out.inside) + " of " + std::to_string(out.rows) +
+                         " rows in the simulated time, " + base::six_digits(there->front()) + " to " +
+                         base::six_digits(there->back()) + " s; the log covers " +
+                         base::six_digits(here->front() + shift_s) + " to " +
+                         base::six_digits(here->back() + shift_s) + " s, and " +
+                         std::to_string(fewest_compared) + " are needed"
+                   : "has no column with " + std::to_string(fewest_compared) +
+                         " rows at which this run has a value",
+      .cure = few ? "correct the unit of the log's time, or give --shift, the offset of the log's clock"
+                  : "name columns for which the simulated drive has values"};
 }
 
 study::Trace at_instants(const study::Trace& log, double shift_s, const std::vector<double>& t_s) {
