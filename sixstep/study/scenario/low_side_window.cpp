@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sixstep/base/decimal.hpp"
+#include "sixstep/base/written.hpp"
 
 namespace sixstep::study {
 
