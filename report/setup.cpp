@@ -167,7 +167,7 @@ std::string sensorless(const study::Sensorless& x) {
 
 std::string finite_set(const study::Field& x) {
   std::string text =
-      "currents along the magnet and across it controlled by the leg state whose predicted current is nearest";
+      "currents along and across the magnet are controlled by the leg state whose predicted current is nearest";
   if (x.switching_weight_A > 0)
     text += "; each switching leg counts as a current error of " + given(x.switching_weight_A, "A");
   if (x.peak_A) text += "; at most " + given(*x.peak_A, "A");
@@ -178,7 +178,7 @@ std::string finite_set(const study::Field& x) {
 
 std::string field(const study::Field& x) {
   if (x.law == study::FieldLaw::finite_set) return finite_set(x);
-  std::string text = "currents controlled along the magnet and across it";
+  std::string text = "currents are controlled along and across the magnet";
   if (x.bandwidth_Hz) text += " to " + given(*x.bandwidth_Hz, "Hz");
   text += x.decoupling ? ", decoupled" : ", not decoupled";
   text += x.voltage_limit == control::VoltageLimit::circle ? "; voltages within the circle"

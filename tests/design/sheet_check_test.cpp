@@ -225,7 +225,7 @@ TEST(SheetCheck, FrictionThatLacksHalfTheCurrentIsNoFactorOfAFrame) {
   const double loss_Nm = 1e-6 * s.torque_constant_mNm_A->value * s.no_load_current_mA->value;
   s.viscous_friction_Nm_s = Quantity{0.5 * loss_Nm / w, "", ""};
   EXPECT_EQ(relation(checked(s), "no-load current").remark,
-            "dry friction T_c is not given: it would add to the left side");
+            "Coulomb friction T_c is not given; T_c would increase the left side");
   s.coulomb_friction_mNm = Quantity{1e-6, "", ""};
   EXPECT_EQ(relation(checked(s), "no-load current").remark, "");
   s.coulomb_friction_mNm = Quantity{0.5e3 * loss_Nm, "", ""};

@@ -211,7 +211,7 @@ TEST(HostileInput, OfAHundredThousandMistakesAHundredAreTold) {
   for (int n = 0; n < 100'000; ++n) keys += fmt::format("nonsense_{} = 1\n", n);
   const std::vector<std::string> lines = told(head + keys);
   ASSERT_THAT(lines, SizeIs(101));
-  EXPECT_EQ(lines.back(), "x.toml: is wrong in 99900 more places; correct those above first");
+  EXPECT_EQ(lines.back(), "x.toml: is wrong in 99900 more places; correct the errors above first");
   EXPECT_THAT(told(head + repeated("[[require]]\nmetric = 1\n", 20'000)),
               ElementsAre(HasSubstr("has 20000 tables; at most 10000 are allowed")));
 }

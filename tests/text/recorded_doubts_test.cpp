@@ -261,7 +261,7 @@ TEST(RecordedDoubts, ClippedNoisyAndTornRecordingsAreCalledSo) {
     });
   };
   EXPECT_THAT(seen(of([](int, double u) { return std::clamp(u, -2.6, 2.6); })).problem,
-              HasSubstr("u_ab is clipped: it stays at 2.6 or -2.6 V"));
+              HasSubstr("u_ab is clipped: the voltage stays at 2.6 or -2.6 V"));
   EXPECT_THAT(seen(of([](int n, double u) {
                 return std::clamp(u + 0.01 * std::sin(7919.0 * n * n), -3.5, 9.0);
               })).problem,

@@ -128,7 +128,7 @@ TEST_F(ReferenceInAFile, ItsSlipsAreToldWhereTheyStand) {
   EXPECT_THAT(
       complaints("file = \"none.csv\"\n"),
       ElementsAre("x.toml:7:8: reference.file = \"none.csv\" names none.csv, which cannot be read: No "
-                  "such file or directory; check the path and the permission to read it"));
+                  "such file or directory; check the path and your permission to read the file"));
   EXPECT_THAT(complaints("file = \"/dev/zero\"\n"),
               ElementsAre("x.toml:7:8: reference.file = \"/dev/zero\" names /dev/zero, which cannot be read: "
                           "it is not a regular file; name a file"));

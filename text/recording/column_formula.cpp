@@ -86,7 +86,7 @@ base::Result<ColumnFormula> column_formula(std::string_view text) {
   if (!out.name.empty() && !out.column.empty() && is_finite) return out;
   return bounded({.where = "columns",
                   .value = std::string(text),
-                  .limit = is_finite ? "must be NAME=COLUMN, with or without constants after it"
+                  .limit = is_finite ? "must be NAME=COLUMN, with or without constants behind the column"
                                      : "has constants whose product is 0 or not finite",
                   .cure = "write for example time=ms_today/1000 or speed=erpm*2*pi/60/7"});
 }

@@ -146,7 +146,7 @@ std::span<const std::pair<std::string_view, std::string_view>> recipe_steps() {
 }
 
 std::string_view recipe_note() {
-  return "With three of the six orders of the phase wires the motor hums. With two orders it runs rough in one direction, and with one order it runs well in the other direction. If two Hall lines are swapped, the motor runs backward with this last order, and moving phase wires alone cannot correct the direction.";
+  return "With three of the six orders of the phase wires the motor hums. With two orders the motor runs rough in one direction, and with one order it runs well in the other direction. If two Hall lines are swapped, the motor runs backward with this last order, and moving phase wires alone cannot correct the direction.";
 }
 
 std::string way_text(const analysis::WiringStudy& s, double electrical_deg) {

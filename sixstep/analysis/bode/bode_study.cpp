@@ -213,9 +213,10 @@ base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& 
   b.stands_at = waveform.back().at(s.duration_s);
   b.amplitude = amplitude_of(order, b.stands_at);
   if (!(b.amplitude > 0.0))
-    return {{"reference", "",
-             "is zero at the end of the run, so that the default amplitude, a twentieth of it, is also zero",
-             "give --amplitude, or set a final reference other than zero"}};
+    return {
+        {"reference", "",
+         "is zero at the end of the run, so the default amplitude, a twentieth of the reference, is also zero",
+         "give --amplitude, or set a final reference other than zero"}};
   const base::Result<study::Compiled> compiled = study::compile(last);
   if (!compiled) return compiled.problems();
   b.pole_pairs = compiled->motor.machine.pole_pairs;

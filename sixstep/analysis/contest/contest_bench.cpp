@@ -264,7 +264,7 @@ base::Result<std::vector<ContestKey>> keys_of(const Contestant& contestant, cons
     const std::size_t equals = one.find(" = ");
     if (equals == std::string_view::npos)
       return base::Problem{std::string(contestant.name), std::string(one), "is not a key with a value",
-                           "write it as key = value"};
+                           "write each part as key = value"};
     out.push_back({std::string(one.substr(0, equals)), std::string(one.substr(equals + 3))});
   }
   return out;

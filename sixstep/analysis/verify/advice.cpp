@@ -169,7 +169,8 @@ Rescue rescue(const DesignOrder& order, const DriveDesign& d) {
     if (rescued(spec, next)) return {words_of_change(order.spec, spec), false};
   if (!nominal.empty())
     return {
-        nominal + ", tested with the sheet's nominal motor only: the tolerances take too long to simulate",
+        nominal +
+            ", tested only with the sheet's nominal motor, because the tolerances take too long to simulate",
         true};
   return out;
 }

@@ -126,7 +126,7 @@ void check_hall_filter(const Scenario& s, const design::MotorModel& motor, base:
       {"sensors.hall_stable_samples", std::to_string(s.sensors.hall_stable_samples),
        "last longer than a sector, " + sector + " s at protection.over_speed_rad_s = " + written(*fastest),
        most >= 2 ? "lower this value to " + written(most) + " at most, or lower over_speed_rad_s"
-                 : "set it to 1, shorten pwm.period_s, or lower over_speed_rad_s"});
+                 : "set this value to 1, shorten pwm.period_s, or lower over_speed_rad_s"});
 }
 
 void check_braking(const Scenario& s, base::Problems& out) {

@@ -28,7 +28,7 @@ void check_currents(const Scenario& s, base::Problems& out) {
   if (sensors.currents == CurrentMeasurement::dc_link && !samples_in_middle)
     out.push_back(
         {"sensors.currents", "\"dc-link\"",
-         "shows the current only in the on-time, and samples at the start of the period come before it",
+         "shows the current only in the on-time, and samples at the start of the period come before the on-time",
          "set pwm.sample = \"middle\", best with pwm.alignment = \"centre\""});
 }
 

@@ -33,7 +33,7 @@ void check_resolver(const Scenario& s, const std::optional<design::MotorModel>& 
   if (motor && !believed && commutates && std::fmod(motor->machine.pole_pairs, r.pole_pairs) != 0)
     wrong("pole_pairs", std::to_string(r.pole_pairs),
           "does not divide the motor's " + base::written(motor->machine.pole_pairs) +
-              " pole pairs, so that one angle of the resolver has several electrical angles of the motor",
+              " pole pairs, so one angle of the resolver belongs to several electrical angles of the motor",
           "give 1, or a divisor of the motor's pole pairs");
   const double step_s = tracking_period_s(s);
   if (sampled && std::fabs(2 * step_s * r.excitation_Hz - 1) > 1e-9)
@@ -130,7 +130,7 @@ void check_lines(const Scenario& s, base::Problems& out) {
   out.push_back(
       {"sensors.encoder.pitch_mm", base::written(*e.pitch_mm),
        "goes " + base::rounded(lines, 6) +
-           " times into two pole pitches; it must go into them a whole number of times, at most 1000000",
+           " times into two pole pitches; two pole pitches must be a whole number of lines, at most 1000000",
        "take " + base::written(2 * s.sheet.pole_pitch_mm->value / nearest) + " mm"});
 }
 
