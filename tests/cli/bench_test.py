@@ -158,10 +158,10 @@ class Bench(Started):
                            (standing, "hall1, hall2, hall3 never change: the rotor was at rest"),
                            (dead, "hall3 = 0 in every row, while another line changes"),
                            (whole.replace("hall", "pin"), "has no columns of Hall lines: it has time, pin1"),
-                           (whole.replace(",", "|"), "holds no row of numbers"),
+                           (whole.replace(",", "|"), "contains no row of numbers"),
                            ("\x1f\x8b\x08\x00\x00" + whole, "is not a text file; export the recording as CSV, or unpack a .gz with gzip -d"),
                            (whole.replace("0.01,", "nan,", 1), ': time "nan" is not a number; remove such rows'),
-                           (whole + "1e300,1,0,0,0,0,0\n", "time 1e+300 in row 2161 is too large for any instrument; check the unit"),
+                           (whole + "1e300,1,0,0,0,0,0\n", "time 1e+300 in row 2161 is too large for any instrument; correct the unit"),
                            (whole + "0,1,0,0,0,0,0\n", "time 0 in row 2161 does not rise; give the rows in the order"),
                            (whole + "1,1,0,0,1e200,0,0\n", "u_ab 1e+200 in row 2161 is too large for any instrument"),
                            (whole + "1,1,0\n", ':2162: hall3 "" is not a number'),
@@ -179,7 +179,7 @@ class Bench(Started):
         head, rows = whole.split("u_ab [V]\n")
         head += "u_ab [V]\n"
         for text, told in (("", "is empty"),
-                           (head, "holds no row of numbers"),
+                           (head, "contains no row of numbers"),
                            (head + "".join(rows.splitlines(True)[:900]), "period"),
                            (head + "".join(f"{n * 1e-5:g},0.25\n" for n in range(900)), "u_ab = 0.25 V in every row: the motor was at rest"),
                            (whole.replace("u_ab [V]", "CH1 [V]"), "--between is missing, and the headings do not tell between which points the voltages were measured; give lines"),

@@ -73,7 +73,7 @@ TEST(BoardLog, SaysWhatIsWrong) {
   EXPECT_THAT(limit("t [us],i_m [mA]\n1,x\n2,4\n"), HasSubstr("is not a number"));
   EXPECT_THAT(limit("i_m [mA],duty\n1,0\n2,0\n"), ::testing::Not("nothing"));
   EXPECT_EQ(limit("t [us],i_m [mA]\n1,2\n"), "nothing");  // the comparison decides whether two rows suffice
-  EXPECT_THAT(limit("t [us],i_m [mA]\n"), HasSubstr("holds no row of numbers"));
+  EXPECT_THAT(limit("t [us],i_m [mA]\n"), HasSubstr("contains no row of numbers"));
   EXPECT_EQ(limit("t [us],i_m [mA]\n1,2\n3,4\n"), "nothing");
 }
 

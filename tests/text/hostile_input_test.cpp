@@ -43,7 +43,7 @@ TEST(HostileInput, ABusFasterThanAnyBoardIsRefusedWithItsTimeConstant) {
   EXPECT_THAT(
       told(head + bus),
       ElementsAre(
-          "x.toml:5:17: supply.capacitance_F = 1e-07 makes the bus's time constant with supply.resistance_ohm = 0.2 and the winding 14.4 ns, and no board is below 100 ns; check the unit of this value: a bus has hundreds of microfarads; for a stiff bus remove resistance and capacitance"));
+          "x.toml:5:17: supply.capacitance_F = 1e-07 gives the bus, with supply.resistance_ohm = 0.2 and the winding, a time constant of 14.4 ns, and no board has less than 100 ns; correct the unit of this value: a bus has hundreds of microfarads; for a stiff bus remove resistance and capacitance"));
   EXPECT_THAT(told(head + "[supply]\nresistance_ohm = 0.2\ncapacitance_F = 1e-5\n"), SizeIs(0));
   EXPECT_THAT(told(head + "[initial]\nbus_V = 1e308\n[supply]\nresistance_ohm = 0.2\ncapacitance_F = 1e-3\n"),
               ElementsAre(HasSubstr("initial.bus_V = 1e308 must be above 0 and at most 100000")));
@@ -59,8 +59,8 @@ TEST(HostileInput, ABatteryThatRecoversAtOnceIsRefused) {
         farad + "\n");
   };
   EXPECT_THAT(battery("1e-6"),
-              ElementsAre(HasSubstr("supply.battery_recovery_F = 1e-06 makes the battery's time "
-                                    "constant with supply.battery_recovery_ohm = 0.05 30.8 ns")));
+              ElementsAre(HasSubstr("supply.battery_recovery_F = 1e-06 gives the battery's recovery, with "
+                                    "supply.battery_recovery_ohm = 0.05, a time constant of 30.8 ns")));
   EXPECT_THAT(battery("4e-6"), SizeIs(0));
 }
 
@@ -102,7 +102,7 @@ TEST(HostileInput, ASwitchOfMegohmsIsRefused) {
   EXPECT_THAT(told(head + "[bridge]\non_resistance_ohm = 1e9\n"),
               ElementsAre(HasSubstr("bridge.on_resistance_ohm = 1e9 must lie in 0 to 1000000")));
   EXPECT_THAT(told(head + "[bridge]\non_resistance_ohm = 1e5\n"),
-              ElementsAre(HasSubstr("makes the time constant of winding and bridge 2.86 ns")));
+              ElementsAre(HasSubstr("gives winding and bridge a time constant of 2.86 ns")));
 }
 
 TEST(HostileInput, AFrictionThatStopsTheRotorAtOnceIsRefused) {

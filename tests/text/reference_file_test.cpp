@@ -76,7 +76,7 @@ TEST(ReferenceFile, AHeadingMayBringAUnit) {
 
 TEST(ReferenceFile, EachSlipIsToldWithItsLine) {
   EXPECT_THAT(told(""), ElementsAre(HasSubstr("r.csv: is empty; ")));
-  EXPECT_THAT(told("t,i\n"), ElementsAre(HasSubstr("r.csv:1: holds no row of numbers; ")));
+  EXPECT_THAT(told("t,i\n"), ElementsAre(HasSubstr("r.csv:1: contains no row of numbers; ")));
   EXPECT_THAT(told("0\n1\n"), ElementsAre("r.csv:1: has 1 column; each row is a time in s and a value"));
   EXPECT_THAT(told("0,1\n0.1\n0.2,x\n0.1,1\n0.1,1\n-1,nan\n"),
               ElementsAre("r.csv:2: column 2 \"\" is not a number; write numbers as 0.5 or 5e-1",

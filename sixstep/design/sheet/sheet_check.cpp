@@ -128,10 +128,10 @@ void judge_known(const Sheet& sheet, SheetCheck& check, base::Problems& problems
   }
 }
 
-/// The limit as text: "makes R J/K_t^2 440 s, and almost no motor is above 100 s".
+/// The limit as text: "gives the rotor a time constant R J/K_t^2 of 440 s, and almost no motor has more than 100 s".
 std::string slow_words(const char* what, double seconds, double usual_s) {
-  return std::string("makes ") + what + " " + rounded(seconds, 3) + " s, and almost no motor is above " +
-         rounded(usual_s, 3) + " s";
+  return std::string("gives ") + what + " of " + rounded(seconds, 3) +
+         " s, and almost no motor has more than " + rounded(usual_s, 3) + " s";
 }
 
 /// Reports values with which a motor is too slow, probably because of a wrong unit. They can be simulated,
@@ -150,8 +150,8 @@ void doubt_pace(const Sheet& sheet, SheetCheck& check) {
     const bool axes = !sheet.inductance_mH && sheet.d_axis_inductance_mH;
     doubt(axes ? "d_axis_inductance_mH" : "inductance_mH",
           axes ? sheet.d_axis_inductance_mH : sheet.inductance_mH,
-          slow_words("the winding's time constant L/R", *winding, slowest_usual_winding_s),
-          "check the unit of inductance and resistance");
+          slow_words("the winding a time constant L/R", *winding, slowest_usual_winding_s),
+          "correct the unit of inductance or resistance");
   }
   if (rotor && *rotor > slowest_usual_rotor_s) {
     const bool braked = sheet.with_brake && sheet.inertia_with_brake_gcm2;
@@ -160,12 +160,13 @@ void doubt_pace(const Sheet& sheet, SheetCheck& check) {
     const bool linear = sheet.kind == MotorKind::linear;
     if (q)
       doubt(braked ? "inertia_with_brake_gcm2" : "inertia_gcm2", q,
-            slow_words(linear ? "R m/K_f^2" : "R J/K_t^2", *rotor, slowest_usual_rotor_s),
-            linear ? "check the unit of the mass, then the units of force constant and resistance"
-                   : "check the unit of the inertia, then the units of torque constant and resistance");
+            slow_words(linear ? "the slide a time constant R m/K_f^2" : "the rotor a time constant R J/K_t^2",
+                       *rotor, slowest_usual_rotor_s),
+            linear ? "correct the unit of the mass, of the force constant or of the resistance"
+                   : "correct the unit of the inertia, of the torque constant or of the resistance");
     else
-      doubt(from, {}, slow_words("R J/K_t^2", *rotor, slowest_usual_rotor_s),
-            "check the units of the rotor's dimensions, then the units of torque constant and resistance");
+      doubt(from, {}, slow_words("the rotor a time constant R J/K_t^2", *rotor, slowest_usual_rotor_s),
+            "correct the units of the rotor's dimensions, of the torque constant or of the resistance");
   }
 }
 

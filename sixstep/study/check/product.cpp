@@ -39,7 +39,7 @@ void check_registers(const Scenario& s, base::Problems& out) {
   if (s.sensors.currents == rig::CurrentMeasurement::dc_link && s.pwm.delay_periods > 0)
     out.push_back(
         {"pwm.delay_periods", std::to_string(s.pwm.delay_periods),
-         "makes the duty belong to another period than the shunt sample",
+         "assigns the duty to another period than the shunt sample",
          "set delay_periods = 0: with pwm.sample = \"middle\" the answer acts at the next period's start"});
 }
 

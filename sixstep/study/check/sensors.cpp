@@ -93,7 +93,7 @@ void check_probes(const Scenario& s, const std::optional<design::MotorModel>& mo
   check_probe_edges(s, motor, out);
   if (s.sensors.hall_glitches_Hz * s.duration_s > most_glitches)
     out.push_back({"sensors.hall_glitches_Hz", base::written(s.sensors.hall_glitches_Hz),
-                   "makes more than 100000 glitches in duration_s = " + base::written(s.duration_s),
+                   "causes more than 100000 glitches in duration_s = " + base::written(s.duration_s),
                    "lower sensors.hall_glitches_Hz or duration_s"});
 }
 
