@@ -212,7 +212,7 @@ class Bench(Started):
                             (("identify",), "sixstep motor identify needs LOG"),
                             (("emf",), "sixstep motor emf needs SCOPE"),
                             (("identify", "log.csv", "--pole-pairs", "0"), "--pole-pairs = 0 must"),
-                            (("identify", "log.csv", "--pole-pairs", "40"), "--pole-pairs = 40 has 240 edges on a turn"),
+                            (("identify", "log.csv", "--pole-pairs", "40"), "--pole-pairs = 40 has 240 edges in a turn"),
                             (("identify", "log.csv", "--interval", "0"), "--interval = 0 must be above 0"),
                             (("identify", "log.csv", "--interval", "nan"), "--interval = nan must be above 0"),
                             (("identify", "log.csv", "--between", "wires"), "--between = wires must be lines or star"),

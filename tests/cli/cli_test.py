@@ -234,7 +234,7 @@ class CommandLine(ProgramTest):
         for words in (["motor", "new"], ["motor", "check"], ["export", "fmu"]):
             self.assertEqual(self.run_program("help", *words).stdout, self.run_program(*words, "--help").stdout)
         self.assertIn("is not a command of sixstep motor", self.run_program("help", "motor", "mew", code=2).stderr)
-        self.assertIn("looked up beside the scenario", both)
+        self.assertIn("searched beside the scenario", both)
 
 
 if __name__ == "__main__":

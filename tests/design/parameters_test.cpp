@@ -153,8 +153,7 @@ TEST(MotorModel, AMotorTooFastToBeOneHasASlipInAUnit) {
   kilograms.inertia_gcm2->value = 1.35e-5;
   EXPECT_EQ(
       problems_of(kilograms),
-      "inertia_gcm2 = 1.35e-05 lets rotor and winding oscillate at K_t/sqrt(L J) = 1.21e+06 rad/s, and "
-      "no motor is above 1e5; correct the unit of the inertia, of the inductance or of the torque constant\n");
+      "inertia_gcm2 = 1.35e-05 lets rotor and winding oscillate at K_t/sqrt(L J) = 1.21e+06 rad/s, and no motor has more than 1e5 rad/s; correct the unit of the inertia, of the inductance or of the torque constant\n");
 }
 
 TEST(MotorModel, EveryProblemIsReportedAtOnce) {

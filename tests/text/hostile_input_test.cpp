@@ -116,7 +116,7 @@ TEST(HostileInput, ABandThatNoBridgeFollowsIsRefusedAndIsNoDefect) {
                 band_A + " }\n[reference]\nvalue = 5\n");
   };
   EXPECT_THAT(band("1e-15"), ElementsAre(HasSubstr("control.current.band_A = 1e-15 must be at least 1e-09")));
-  EXPECT_THAT(band("1e-6"), ElementsAre(HasSubstr("widen it to at least 0.0021 A")));
+  EXPECT_THAT(band("1e-6"), ElementsAre(HasSubstr("widen this value to at least 0.0021 A")));
   EXPECT_THAT(band("0.0022"), SizeIs(0));
 }
 

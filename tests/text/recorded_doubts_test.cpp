@@ -251,7 +251,7 @@ TEST(RecordedDoubts, WhatNoMotorHasIsRefused) {
   // The voltage columns are in millivolts, but their headings say kilovolts.
   EXPECT_THAT(seen(plain("time [s],u_ab [kV],u_bc [kV]\n", "{:.6f},{:.5f},{:.5f}\n", 1.0, 1e3)).problem,
               AllOf(HasSubstr("no brushless machine is built with more than 1e+06"),
-                    HasSubstr("the voltage is read too great")));
+                    HasSubstr("the voltage is too great")));
 }
 
 TEST(RecordedDoubts, ClippedNoisyAndTornRecordingsAreCalledSo) {

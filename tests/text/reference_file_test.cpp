@@ -90,7 +90,8 @@ TEST(ReferenceFile, EachSlipIsToldWithItsLine) {
               ElementsAre("r.csv: has no column \"torqe\"; did you mean \"torque\"?"));
   EXPECT_THAT(
       told("0,1\n", "torque"),
-      ElementsAre("r.csv:1: has no headings; write headings in the first line, one of them \"torque\""));
+      ElementsAre(
+          "r.csv:1: has no headings; write headings in the first line, and the heading \"torque\" above the wanted column"));
   std::string broken = "0,1\n";
   for (int n = 0; n < 100; ++n) broken += "x,y\n";
   EXPECT_EQ(told(broken).size(), 6u);
@@ -159,12 +160,13 @@ TEST_F(ReferenceInAFile, WhatCannotChangeDuringARunIsToldWhatCan) {
   for (const char* key :
        {"reference", "load.torque_Nm", "control.mode", "pwm.chopping", "bridge.dead_time_s"})
     EXPECT_THAT(what, HasSubstr(key));
-  EXPECT_THAT(complaints("times_s = [0]\nvalues = [0]\n[[at]]\ntime_s = 0.005\npwm.period_s = 1e-5\n"
-                         "supply.resistance_ohm = 1\nload.torque_mNm = 1\n"),
-              ElementsAre("x.toml:11:5: at.pwm.period_s is not a key here; " + what,
-                          "x.toml:12:8: at.supply.resistance_ohm is not a key here; " + what,
-                          "x.toml:13:6: at.load.torque_mNm is not a key here; write torque_Nm and give "
-                          "the value in that unit: 1 mNm = 0.001 Nm"));
+  EXPECT_THAT(
+      complaints("times_s = [0]\nvalues = [0]\n[[at]]\ntime_s = 0.005\npwm.period_s = 1e-5\n"
+                 "supply.resistance_ohm = 1\nload.torque_mNm = 1\n"),
+      ElementsAre(
+          "x.toml:11:5: at.pwm.period_s is not a key here; " + what,
+          "x.toml:12:8: at.supply.resistance_ohm is not a key here; " + what,
+          "x.toml:13:6: at.load.torque_mNm is not a key here; write the key as torque_Nm and give the value in the key's unit: 1 mNm = 0.001 Nm"));
 }
 
 }  // namespace SIXSTEP_TEST_FILE
