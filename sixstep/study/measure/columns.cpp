@@ -189,7 +189,7 @@ base::Result<std::vector<std::size_t>> record_indices(const Scenario& scenario) 
         std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
     if (found == columns.end())
       problems.push_back({"record.columns", "\"" + name + "\"", "is not a column of the trace",
-                          "name one of the columns that sixstep help record.columns lists"});
+                          "name one of the columns that the help on record.columns lists"});
     else if (found != columns.begin())
       indices.push_back(static_cast<std::size_t>(found - columns.begin()));
   }
