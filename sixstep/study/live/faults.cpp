@@ -163,7 +163,7 @@ base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t
   if (fault == rig::Fault::shoot_through)
     return {
         at(t_s), "", "both switches of a leg were on: shoot-through",
-        "look for a shorted switch (bridge.shorted_switch), and for a command with the same leg as source and sink"};
+        "look for a shorted switch (at.bridge.shorted_switch), and for a command with the same leg as source and sink"};
   if (fault == rig::Fault::beyond_model)
     return {
         at(t_s), "",
