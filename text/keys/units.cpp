@@ -138,7 +138,7 @@ base::Problem other_kind(const std::string& unit, const Unit& from, const Unit& 
       .limit = fmt::format("has the unit {}, which cannot be converted to {}", unit, wanted.unit),
       .cure =
           multiplies_minutes(from, to)
-              ? "this unit contains minutes as a factor; write minutes per turn as /rpm or /min-1. Units that fit: " +
+              ? "this unit contains minutes as a factor; write a value per rpm with /rpm or /min-1. Units that fit: " +
                     fit
               : "units that fit: " + fit};
 }
