@@ -66,8 +66,8 @@ base::Result<text::NamedText> load_controller(const std::string& path) {
   }
   if (!bytes->starts_with(elf_magic))
     return base::Problem{.where = path,
-                         .limit = "is not a compiled library; it may be the source",
-                         .cure = "compile it, and name the compiled file: " + compile_command(path) +
+                         .limit = "is not a compiled library; the file may be the source",
+                         .cure = "compile the source, and name the compiled file: " + compile_command(path) +
                                  ", where FOLDER has sixstep/control/own/own_controller.h"};
   // An absolute path contains a slash. The loader would search a name without a slash among the system's
   // libraries.

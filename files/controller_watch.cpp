@@ -79,7 +79,7 @@ void note_run(const ControllerThread& at, const char* what) {
 const char* crash_of(int signal) {
   switch (signal) {
     case SIGSEGV:
-      return "crashed (SIGSEGV: access to memory outside its own)";
+      return "crashed (SIGSEGV: access to memory that does not belong to the program)";
     case SIGBUS:
       return "crashed (SIGBUS: access to memory that does not exist)";
     case SIGFPE:

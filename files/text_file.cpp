@@ -38,7 +38,7 @@ base::Problem unreadable(const std::string& path, int reason) {
   return {.where = path + ":",
           .limit = std::string("cannot be read: ") + std::strerror(reason),
           .cure = reason == EISDIR ? "name a file in this folder"
-                  : near.empty()   ? "check the path and the permission to read it"
+                  : near.empty()   ? "check the path and your permission to read the file"
                                    : "did you mean " + near + "?"};
 }
 

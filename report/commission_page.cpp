@@ -33,7 +33,8 @@ std::string facts(const CommissionStudy& s) {
                     s.lines_found()
                         ? fmt::format("{:.2f}° ± {:.2g}°", s.found.hall_offset_deg + 0.0, s.bounds.edge_deg)
                         : "not found");
-  return out + bench_fact("Verdict", s.holds() ? "all within bounds" : "not all within bounds");
+  return out +
+         bench_fact("Verdict", s.holds() ? "all within bounds" : "not all values are within their bounds");
 }
 
 /// The interval from the start of phase `first` to the end of phase `last`.
@@ -103,7 +104,7 @@ std::string render_commission(const CommissionPage& page) {
        {"facts", facts(s)},
        {"pictured", "The test"},
        {"charts",
-        currents(s, "Currents until the rotor rests, and steps between two levels", Phase::zeroing,
+        currents(s, "Currents until the rotor rests, then steps between two current levels", Phase::zeroing,
                  Phase::stepping) +
             way(s) +
             currents(s, "Currents while the field turns slowly, each way", Phase::turning, Phase::turning) +

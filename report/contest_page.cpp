@@ -84,7 +84,7 @@ SvgChart trade(const Contest& c) {
   std::sort(front.begin(), front.end(), [](const ContestRow* a, const ContestRow* b) {
     return a->values[analysis::ripple_figure] < b->values[analysis::ripple_figure];
   });
-  SvgCurve line{"no controller has less of both", "main", {}, {}};
+  SvgCurve line{"no other controller has less torque ripple and less loss", "main", {}, {}};
   for (const ContestRow* row : front) {
     line.x.push_back(1e3 * row->values[analysis::ripple_figure]);
     line.y.push_back(row->values[analysis::loss_figure]);

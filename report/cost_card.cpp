@@ -81,7 +81,7 @@ std::string switching_words(const Outcome& outcome, const Trace& trace) {
   if (!counts || !(seen_s > 0.0)) return "";
   const double chopped_Hz = switching_frequency_Hz(outcome);
   const long long all = std::accumulate(counts->begin(), counts->end(), 0LL);
-  if (chopped_Hz == 0.0 && all == 0 && trace.whole.empty()) return "none: no switch is ever turned on";
+  if (chopped_Hz == 0.0 && all == 0 && trace.whole.empty()) return "none: no switch was turned on";
   std::string text = chopped_Hz > 0.0
                          ? fmt::format("chopped at <b>{}</b> on average", computed(chopped_Hz, "Hz"))
                          : std::string("no chopping");

@@ -62,7 +62,7 @@ std::string nominal_fact(const analysis::CurveRequest& r, const analysis::Nomina
   if (n.speed_rad_s) item(u.speed_text(*n.speed_rad_s));
   if (n.current_A) item(amperes(*n.current_A));
   if (r.bench.duty != 1 || r.bench.voltage_V != r.bench.motor.nominal_voltage_V || !n.at_torque) return text;
-  text += "; at that torque the curve has " + u.speed_text(n.at_torque->speed_rad_s);
+  text += "; at this torque the curve has " + u.speed_text(n.at_torque->speed_rad_s);
   if (n.speed_rad_s) text += fmt::format(" ({})", deviation(n.at_torque->speed_rad_s, *n.speed_rad_s, ""));
   return text + ", " + amperes(n.at_torque->winding_current_A);
 }
@@ -71,7 +71,7 @@ std::string nominal_fact(const analysis::CurveRequest& r, const analysis::Nomina
 std::string drop_fact(const analysis::SpeedDrop& d, const CurveUnits& u) {
   const auto per_torque = [&](double x) { return plain(x * u.per_rad_s / u.per_Nm, 3); };
   std::string text = "curve " + per_torque(*d.curve);
-  if (d.sheet) text += ", the two points as printed " + per_torque(*d.sheet);
+  if (d.sheet) text += ", between the sheet's no-load and nominal points " + per_torque(*d.sheet);
   text += fmt::format("; R/Kₜ² = {}", per_torque(d.ideal));
   if (d.printed) text += fmt::format(", printed {},", per_torque(*d.printed));
   return text + " neglects the commutation time";
@@ -85,7 +85,7 @@ std::string locked_fact(const analysis::OperatingPoint& turning, const CurveUnit
 }
 
 std::string lasting_fact(const analysis::Curve& curve, const CurveUnits& u) {
-  if (!curve.marks.for_ever) return "not even without load";
+  if (!curve.marks.for_ever) return "nowhere: the winding becomes too hot even without load";
   const analysis::OperatingPoint& from = *curve.marks.for_ever;
   return fmt::format("from {} ({}) on", u.speed_text(from.speed_rad_s), u.torque_text(from.shaft_torque_Nm));
 }
@@ -101,9 +101,10 @@ std::string thermal_facts(const analysis::CurveRequest& r, const analysis::Curve
   if (!curve.thermal) return "";
   std::string html = fact(fmt::format("Current at {}\u00a0°C ambient", plain(r.ambient_degC, 3, true)),
                           stands_fact(analysis::thermal_limits(*curve.thermal, r, 0.0)));
-  html += fact("The curve itself can be held continuously", lasting_fact(curve, u));
+  html += fact("Part of the curve that the winding withstands continuously", lasting_fact(curve, u));
   if (!curve.by_values) return html;
-  return html + fact("All limits are at the worse ends of the motor file's ranges", curve.worse_ends) +
+  return html +
+         fact("All limits are computed with the worse ends of the motor file's ranges", curve.worse_ends) +
          fact("Current with the motor file's values themselves",
               stands_fact(analysis::thermal_limits(*curve.by_values, r, 0.0)));
 }
@@ -118,7 +119,7 @@ std::string facts(const analysis::CurveRequest& r, const analysis::Curve& curve,
       fact("Ideal line", fmt::format("{} … {}", u.torque_text(analysis::ideal_torque_Nm(r.bench, 0.0)),
                                      u.speed_text(analysis::ideal_no_load_rad_s(r.bench))));
   if (!r.bench.motor.left_to_a_run.empty())
-    html += fact("Neglected here, simulated by a run", r.bench.motor.left_to_a_run);
+    html += fact("Effects that a run simulates and this curve neglects", r.bench.motor.left_to_a_run);
   if (sixstep::design::on_R(r.motor_degC) != 1 || sixstep::design::on_K_e(r.sheet, r.motor_degC) != 1)
     html += fact("Winding and magnets at",
                  fmt::format("{} and {}\u00a0°C", plain(r.motor_degC.winding_degC, 3, true),

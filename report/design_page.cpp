@@ -182,7 +182,7 @@ std::string sensing_steps(const DesignStudy& s) {
                        escaped(title), origin, derivation_table(steps, linear));
   };
   return loop("Speed from " + edges_words(s.design.spec.rotor), "delay and resolution", s.design.sensing) +
-         loop("Without a rotor sensor", "these runs have Hall edges in place of zero crossings",
+         loop("Without a rotor sensor", "the runs of this design use Hall edges in place of zero crossings",
               s.sensorless);
 }
 

@@ -40,7 +40,7 @@ std::string facts(const text::MeasuredEmf& m) {
 SvgChart recording(const EmfPage& page) {
   const EmfResult& r = page.measured.result;
   const auto& t = page.record.t_s;
-  SvgChart chart{.title = "Recorded, and the fit over it", .x_label = "ms", .y_label = "V", .levels = {0.0}};
+  SvgChart chart{.title = "Recorded voltages and the fit", .x_label = "ms", .y_label = "V", .levels = {0.0}};
   const double middle = 0.5 * (t.front() + t.back()),
                half = std::min(1.5 / r.frequency_Hz.value, 0.5 * r.seconds);
   for (std::size_t c = 0; c < page.record.channels.size(); ++c) {

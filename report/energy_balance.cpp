@@ -129,7 +129,7 @@ std::string energy_section(const sixstep::study::EnergyBook& b, const sixstep::b
         "branch of the delta.</p>\n";
   if (b.brake_resistor > 0.0)
     html += fmt::format(
-        "<p class=\"closing\">the brake resistor took <b>{}</b> from the bus; it is not part of the account above, which begins at the bridge</p>\n",
+        "<p class=\"closing\">the brake resistor took <b>{}</b> from the bus; this energy is not part of the balance above, which begins at the bridge</p>\n",
         computed(b.brake_resistor, "J"));
   return told_in(motion, std::move(html));
 }
@@ -149,8 +149,7 @@ std::string device_section(const std::vector<sixstep::study::DeviceLoss>& device
   }
   return html + "</tbody></table><p class=\"closing\">mean powers over the run" +
          std::string(known ? ", and the junction's temperature at that mean power" : "") +
-         "; switching is counted in efficiency and "
-         "temperatures, not in the account above</p>\n";
+         "; efficiency and temperatures include the switching losses, the balance above does not</p>\n";
 }
 
 std::string event_section(const sixstep::study::Outcome& outcome) {
@@ -168,7 +167,7 @@ std::string event_section(const sixstep::study::Outcome& outcome) {
       sixstep::base::written_hex(outcome.digest));
   // Edge-aligned pulses begin at a tick, so half of their edges count as ticks; the note explains this.
   return html +
-         "</tbody></table>\n<p class=\"origin\">A PWM edge at the instant of a control tick counts as the tick. With "
+         "</tbody></table>\n<p class=\"origin\">A PWM edge at the instant of a control tick counts as a control tick. With "
          "complementary chopping an edge switches two gates of a leg, so that all six switches together may have "
          "more turn-ons.</p>\n";
 }

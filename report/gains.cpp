@@ -75,11 +75,11 @@ std::string without_gains(const sixstep::study::Scenario& scenario) {
   if (c.mode == Mode::off) return "off";
   if (c.mode == Mode::duty) return "none: the duty is given";
   if (c.drive == sixstep::study::FirmwareKind::field && c.field.law == sixstep::study::FieldLaw::finite_set)
-    return "no gains: the controller chooses the next of all leg states";
+    return "no gains: the controller chooses the state whose predicted current is nearest to the reference";
   if (c.drive != sixstep::study::FirmwareKind::own &&
       c.current.type == sixstep::study::CurrentLoopType::hysteresis)
     return "current by hysteresis, ±" + computed(c.current.band_A, "A") +
-           ": a band and no gains, the switching follows from the motor";
+           ": a band instead of gains; the switching frequency follows from the motor";
   return "";
 }
 

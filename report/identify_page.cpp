@@ -47,7 +47,7 @@ std::string facts(const HallIdentity& f) {
   } else {
     out += bench_fact("Codes never seen", text::code_word(f.mask) + " and " +
                                               text::code_word(static_cast<std::uint8_t>(f.mask ^ 7)));
-    out += bench_fact("Order and offset", "codes alone do not show them");
+    out += bench_fact("Order and offset", "Hall codes do not show these values");
   }
   out += bench_fact("Jitter", f.jitter_deg.low > 0.0 ? text::with_bounds(f.jitter_deg, "° rms")
                                                      : fmt::format("≤ {:.2g}° rms", f.jitter_deg.high));

@@ -67,7 +67,7 @@ std::string overview(const std::vector<IndexEntry>& entries) {
   }
   return table("overview",
                "<th></th><th>Experiment</th><th class=\"num\">Requirements</th><th>Closest requirement</th>"
-               "<th class=\"num\">Largest deviation from a source, not required</th>",
+               "<th class=\"num\">Largest deviation from a comparison value (not required)</th>",
                rows);
 }
 

@@ -117,7 +117,7 @@ std::string rows_foretold(const Scenario& s, std::size_t most_bytes) {
   const double bytes = expected_bytes(s), most = static_cast<double>(most_bytes);
   if (!(bytes > 1.5 * most)) return "";
   return fmt::format(
-      "its events need about {:.0f} MB, but a report keeps {:.0f} MB: every event before the run's end and during the largest step, and an envelope of the other events; the page states from which time on it has every event",
+      "the run's events need about {:.0f} MB, but a report keeps only {:.0f} MB: every event before the run's end and during the largest step, and an envelope of the other events; the page states from which time on every event is kept",
       bytes / 1e6, most / 1e6);
 }
 
@@ -129,7 +129,7 @@ std::string rows_told(const Trace& trace) {
         fmt::format("from {:.6g} s to {:.6g} s and ", trace.whole.front().from_s, trace.whole.front().to_s);
   return fmt::format(
       "the report has every event {}from {:.6g} s on; an envelope with each peak replaces {} other events, "
-      "because their rows would take too much memory",
+      "because the rows of all events would take too much memory",
       where, trace.whole.back().from_s, trace.left_out);
 }
 

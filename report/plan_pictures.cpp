@@ -177,8 +177,7 @@ std::string index_section(const PagePlan& plan) {
   const text::PlanStory& story = plan.story;
   if (story.plan.sampling != analysis::Sampling::saltelli || story.series.runs == 0) return "";
   std::string html =
-      "<h2>What each figure depends on</h2>\n<p class=\"quiet\">Sobol indices: the part of a figure’s variance that a key "
-      "explains alone, and together with all other keys; the line is the 95\u00a0% confidence interval.</p>\n<div class=\"columns indices-all\">";
+      "<h2>What each figure depends on</h2>\n<p class=\"quiet\">Sobol indices: the part of a figure’s variance that a key explains alone (first order), and with all interactions (total); the line is the 95\u00a0% confidence interval.</p>\n<div class=\"columns indices-all\">";
   for (std::size_t f = 0; f < story.columns.figures.size(); ++f)
     html += "<div>" + index_table(story, f) + "</div>\n";
   return html + "</div>\n";

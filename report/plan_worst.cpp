@@ -111,7 +111,8 @@ std::string worst_section(const PagePlan& plan) {
     if (!worst[f].empty()) html += figure_table(plan, story.columns.figures[f], worst[f]);
   html += casualty_table(plan, story.series.faults, "Stopped by a fault");
   html += casualty_table(plan, story.series.refused, "Could not run");
-  return html.empty() ? "<p class=\"quiet\">Nothing is required, and no run was stopped.</p>\n" : html;
+  return html.empty() ? "<p class=\"quiet\">The scenario has no requirements, and no run was stopped.</p>\n"
+                      : html;
 }
 
 }  // namespace report

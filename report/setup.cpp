@@ -63,8 +63,8 @@ std::string switching(const study::Scenario& s) {
   if (chooses_legs(s.control)) return "one state of the three legs for each control period of " + tick;
   if (s.control.current.type != study::CurrentLoopType::hysteresis) return "";
   return (s.control.current.comparator == study::Comparator::event
-              ? "by comparators whenever the current leaves the band, no PWM; control tick of "
-              : "by a comparison with the band at each control tick, no PWM; tick of ") +
+              ? "comparators switch when the current leaves the band, no PWM; control tick of "
+              : "each control tick compares the current with the band, no PWM; control tick of ") +
          tick + ", " + chopping_words(s.pwm);
 }
 
@@ -148,14 +148,13 @@ std::string protection(const study::Protection& p) {
     text +=
         fmt::format(", after {} of stall above {}", given(*p.stall_s, "s"), given(*p.stall_current_A, "A"));
   if (p.align.current_A) text += ", aligned by " + given(*p.align.current_A, "A");
-  if (p.off_at_s) text += ", run command removed at " + given(*p.off_at_s, "s");
+  if (p.off_at_s) text += ", request to run removed at " + given(*p.off_at_s, "s");
   return text;
 }
 
 std::string sensorless(const study::Sensorless& x) {
   std::string text = fmt::format(
-      "started against up to {} of the nominal torque with {} times the nominal current, followed from {} of "
-      "the no-load speed on by {}",
+      "starts against up to {} of the nominal torque with {} times the nominal current; commutated by the back-EMF from {} of the no-load speed on, by {}",
       computed(100 * x.greatest_load, "%"), x.overload, computed(100 * x.lowest_part, "%"),
       std::ranges::find(study::follow_choices, x.follows, &base::Choice<control::Follow>::value)->meaning);
   if (x.commutates == study::Commutates::hall) text += ", commutated by its Hall probes while they work";
@@ -168,26 +167,27 @@ std::string sensorless(const study::Sensorless& x) {
 
 std::string finite_set(const study::Field& x) {
   std::string text =
-      "currents along the magnet and across it controlled by the leg state whose predicted current is nearest";
+      "currents along and across the magnet are controlled by the leg state whose predicted current is nearest";
   if (x.switching_weight_A > 0)
     text += "; each switching leg counts as a current error of " + given(x.switching_weight_A, "A");
   if (x.peak_A) text += "; at most " + given(*x.peak_A, "A");
-  if (!x.delay_compensation) text += "; the delay is not compensated";
+  if (!x.delay_compensation) text += "; the command's delay is not compensated";
   if (x.harmonic_current) text += "; the current follows the shape of the back-EMF";
   return text;
 }
 
 std::string field(const study::Field& x) {
   if (x.law == study::FieldLaw::finite_set) return finite_set(x);
-  std::string text = "currents controlled along the magnet and across it";
+  std::string text = "currents are controlled along and across the magnet";
   if (x.bandwidth_Hz) text += " to " + given(*x.bandwidth_Hz, "Hz");
   text += x.decoupling ? ", decoupled" : ", not decoupled";
   text += x.voltage_limit == control::VoltageLimit::circle ? "; voltages within the circle"
                                                            : "; each axis within half the bus";
-  if (x.weakening_A) text += "; the field weakened by up to " + given(*x.weakening_A, "A");
+  if (x.weakening_A) text += "; field weakening up to " + given(*x.weakening_A, "A");
   if (x.angle != study::FieldAngle::sensors)
     text += fmt::format("; the magnet's angle by {}", base::word(study::field_angle_choices, x.angle));
-  if (x.advance_periods) text += fmt::format("; commands rotated ahead by {} periods", *x.advance_periods);
+  if (x.advance_periods)
+    text += fmt::format("; the commanded voltage is rotated ahead by {} periods", *x.advance_periods);
   if (x.harmonic_current) text += "; the current follows the shape of the back-EMF";
   return text;
 }
@@ -262,7 +262,7 @@ std::string sentences(const study::Scenario& scenario) {
   if (s.control.mode != control::Mode::off) add("Reference", reference(s));
   if (s.control.drive != study::FirmwareKind::field)
     add("Commutation", s.control.drive == study::FirmwareKind::sensorless
-                           ? "by the drive's own zero crossings or angle"
+                           ? "at the zero crossings that the drive finds, or at its estimated angle"
                        : at_edge ? "at the Hall edge"
                                  : "at the next sample");
   const bool linear = s.sheet.kind == sixstep::design::MotorKind::linear;

@@ -65,11 +65,11 @@ void add_shaft_faults(const study::AtSensors& s, const Add& add) {
   if (s.encoder_line)
     add(fmt::format("encoder's line {} {}", base::word(study::encoder_line_choices, s.encoder_line->line),
                     shows(s.encoder_line->level)));
-  if (s.false_index.value_or(false)) add("a disturbance counted as the index");
+  if (s.false_index.value_or(false)) add("a disturbance on line Z that counts as the index");
   if (s.broken_winding == study::Winding::whole) add("resolver's windings intact again");
   if (s.broken_winding == study::Winding::cosine || s.broken_winding == study::Winding::sine)
     add(fmt::format("resolver's {} winding breaks", base::word(study::winding_choices, s.broken_winding)));
-  if (s.excitation) add(fmt::format("resolver's excitation {} of the full one", *s.excitation));
+  if (s.excitation) add(fmt::format("resolver's excitation {} of the full excitation", *s.excitation));
 }
 
 }  // namespace
@@ -92,7 +92,7 @@ std::string events(const std::vector<study::At>& events, bool linear) {
       if (which != study::Switch::none)
         add(fmt::format("{} {}", base::word(study::switch_choices, which), how));
     };
-    fails(at.bridge.open_switch, "no longer follows its gate");
+    fails(at.bridge.open_switch, "no longer follows its gate signal");
     fails(at.bridge.shorted_switch, "is shorted");
     if (at.bridge.dead_time_s) add("dead time " + given(*at.bridge.dead_time_s, "s"));
     if (const std::string words = tuned(at); !words.empty()) add(words);

@@ -24,13 +24,14 @@ std::string shaft_sensor(const study::Sensors& s) {
 std::string terminals(const study::Sensors& s) {
   std::string text;
   if (!s.terminal_gain_error.empty())
-    text += fmt::format("; dividers of a, b, c too large by {:.4g}", fmt::join(s.terminal_gain_error, ", "));
+    text += fmt::format("; relative gain errors of the dividers a, b, c {:.4g}",
+                        fmt::join(s.terminal_gain_error, ", "));
   const study::Comparators& c = s.comparators;
   if (c == study::Comparators{}) return text;
   text += fmt::format("; comparators against {}, filtered at {}",
                       c.against == rig::CrossingReference::half_bus ? "half the bus" : "the virtual star",
                       given(c.bandwidth_Hz.value_or(0.0), "Hz"));
-  if (!c.offset_V.empty()) text += fmt::format(", off by {:.4g} V", fmt::join(c.offset_V, ", "));
+  if (!c.offset_V.empty()) text += fmt::format(", offsets {:.4g} V", fmt::join(c.offset_V, ", "));
   if (c.hysteresis_V > 0.0) text += ", hysteresis " + given(c.hysteresis_V, "V");
   return text;
 }

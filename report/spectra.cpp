@@ -20,7 +20,7 @@ std::string cut_short(const Stretch& stretch) {
   constexpr double least_turn = 0.01;  // a held rotor that trembles has no electrical frequency
   if (!(stretch.part > least_turn)) return "";
   return fmt::format(
-      "<p class=\"alert\">This part of the run has only {} electrical turns, fewer than two. Lines of the electrical frequency and its multiples are not resolved, and a strong line below the PWM frequency may be an effect of the start and end of this part. A longer run shows more turns.</p>\n",
+      "<p class=\"alert\">This part of the run has only {} electrical turns, fewer than two. The spectrum does not resolve lines of the electrical frequency and its multiples, and a strong line below the PWM frequency may be an effect of the start and end of this part. A longer run shows more turns.</p>\n",
       escaped(plain(stretch.part, 2)));
 }
 
@@ -29,7 +29,7 @@ std::string how(const Spectra& s) {
   const std::string part = s.stretch.turns > 0 ? fmt::format("{} electrical turns", grouped(s.stretch.turns))
                                                : std::string("part of the run with a constant setpoint");
   return fmt::format(
-      "<p class=\"origin\">Amplitudes over the last {}, from {} to {}, with a Hann window and one line every {}. The frequency of a tone between two lines follows from both lines; a tone with a known cause has the frequency of this cause. The curve is first averaged over {}; its mean is not shown.</p>\n",
+      "<p class=\"origin\">Amplitudes over the last {}, from {} to {}, with a Hann window and one line every {}. The frequency of a tone between two lines follows from both lines; a tone with a known cause is listed at the frequency of this cause. The curve is first averaged over {}; its mean is not shown.</p>\n",
       part, escaped(given(s.stretch.time.from, "s")), escaped(given(s.stretch.time.to, "s")),
       escaped(computed(lines.spacing_Hz, "Hz")), escaped(computed(lines.cell_s, "s")));
 }

@@ -51,8 +51,8 @@ std::string closest(const Outcome& outcome) {
 /// The used part of the bus voltage, if no two consecutive samples used all of it.
 std::string least_of_bus(double largest_duty, bool legs) {
   constexpr double whole = 1.0 - 1e-6;
-  if (largest_duty >= whole) return "full voltage at single samples only";
-  return fmt::format("full voltage never needed; {} {}",
+  if (largest_duty >= whole) return "full voltage only at single samples";
+  return fmt::format("full voltage was never needed; {} {}",
                      legs ? "largest voltage vector, relative to its circle:" : "largest duty",
                      plain(largest_duty, 3));
 }
@@ -76,7 +76,7 @@ std::string limits(const Scenario& scenario, const Outcome& outcome, const Trace
               ? fmt::format("reference at {} during {}", computed(*held->limit_A, "A"), lasted(held->limit_s))
               : computed(*held->limit_A, "A") + ", never reached by the reference");
   }
-  if (text.empty()) text = answer("Limits", "nothing was required, and no duty was commanded");
+  if (text.empty()) text = answer("Limits", "the run has no requirements and no commanded duty");
   return card("limits", "What limits the drive", list(text));
 }
 

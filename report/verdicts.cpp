@@ -76,7 +76,7 @@ std::optional<double> room(const Verdict& v) {
 std::string room_words(const Verdict& v) {
   if (v.min && v.max)
     return computed(std::min(*v.max - v.measured, v.measured - *v.min), difference_unit(v.unit)) +
-           " from the nearer of its limits";
+           " from the nearer limit";
   const std::string left = v.unit == "degC" ? computed(v.max ? *v.max - v.measured : v.measured - *v.min, "K")
                                             : plain(100.0 * *room(v), 2, true) + "\u00a0%";
   return left + " inside its " + (v.max ? "upper" : "lower") + " limit";

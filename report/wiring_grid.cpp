@@ -143,7 +143,7 @@ Panel wiring_grid(const WiringStudy& s) {
       fmt::format(
           "Lower: motion after six starts, during {}. Full scale: ±{} electrical turns, or ±{} for a humming motor.",
           computed(s.bench.free_s, "s"), plain(std::ceil(most), 2, true), plain(humming_turns, 1)),
-      "×: phase current without load, relative to straight wires."};
+      "× before a number: phase current without load, relative to straight wires."};
   for (std::size_t n = 0; n < 3; ++n)
     svg += fmt::format("<text class=\"q s\" x=\"{:.0f}\" y=\"{:.0f}\">{}</text>\n", grid_left,
                        bottom + 15.0 * static_cast<double>(n), escaped(motion.words(key[n])));

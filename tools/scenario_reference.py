@@ -57,7 +57,7 @@ number counts as 0. Some numbers are allowed alone but make no drive together. T
 """
 NOTES = {
     "at": """`[[at]]` changes something at an instant of the run. The controller takes over gains, limits, mode and chopping with its next
-sample ([what it keeps](../../howto/steer-a-run-from-cpp.md#what-happens-in-the-chip-at-a-change)).
+sample ([what it keeps](../../howto/steer-a-run-from-cpp.md#which-state-of-the-controller-does-a-change-keep)).
 """,
     "reference": """The controller reads a moving reference at each control tick and holds it until the next. Figures of the reference's
 steps need a reference that does not move in their window, or their own `level`.

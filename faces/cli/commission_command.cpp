@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 
 #include <optional>
+#include <string_view>
 
 #include "faces/cli/choose.hpp"
 #include "faces/cli/result_files.hpp"
@@ -44,9 +45,12 @@ base::Problems told(base::Problems problems, const CommissionArguments& a) {
   for (base::Problem& p : problems) {
     if (p.where == "voltage_V")
       p.where = "--voltage";
-    else if (p.where == "current_A")
+    else if (p.where == "current_A") {
+      constexpr std::string_view member = "current_A";
       p.where = "--current";
-    else if (p.where == "hall_offset_deg")
+      if (const std::size_t at = p.cure.find(member); at != std::string::npos)
+        p.cure.replace(at, member.size(), p.where);
+    } else if (p.where == "hall_offset_deg")
       p.where = "--offset";
     else
       p.where = a.motor + ": " + p.where;

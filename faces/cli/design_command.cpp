@@ -160,7 +160,7 @@ analysis::CarriedOver designed_scenario(analysis::DesignStudy& s, const study::S
     const std::string what = " the design's test in place of the board's " + course;
     carried.scenario.notes = "Run with" + what;
     warn("the designed file has" + what +
-             "; to export a header, write the gains into the board's scenario and export it",
+             "; to export a header, write the gains into the board's scenario and export this scenario",
          false);
   }
   return carried;

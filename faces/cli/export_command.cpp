@@ -148,7 +148,7 @@ Exit not_cleared(const ExportArguments& a, const study::Control& control, const 
               text::visible(a.file) + " --toml NEW.toml\n",
           stderr);
   print(
-      "no header was written; to write it anyway, add --despite REASON, and the header states these reasons\n",
+      "no header was written; to write the header anyway, add --despite REASON; the header then states these reasons\n",
       stderr);
   const Exit told = !c.unmeasured.empty() ? Exit::bad_input : c.unheld.empty() ? Exit::ok : Exit::failed;
   return graver(cli::exit_of(c.outcome), told);

@@ -32,7 +32,7 @@ std::string length_foretold(const study::Scenario& s) {
   const double periods = s.duration_s / s.pwm.period_s;
   if (!(s.pwm.period_s < short_s && periods > many)) return "";
   const double minutes = periods * one_s / 60.0;
-  return fmt::format("its {:.0f} million control periods of {} take {}", periods / 1e6,
+  return fmt::format("the {:.0f} million control periods of {} take {}", periods / 1e6,
                      text::quantity_text(s.pwm.period_s, "s", 3),
                      minutes < 1.5    ? "up to a minute"
                      : minutes < 90.0 ? fmt::format("some {:.0f} minutes", minutes)

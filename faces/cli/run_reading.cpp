@@ -125,10 +125,9 @@ base::Problems contradictions(const RunArguments& arguments) {
   if (compares(arguments))
     append(problems, check_comparison(arguments));
   else if (single && (arguments.files.size() > 1 || !arguments.out.empty()))
-    problems.push_back(
-        {.where = all_options(),
-         .limit = "apply to one scenario only",
-         .cure = "for several files use --out DIR alone, or --html alone to compare the files"});
+    problems.push_back({.where = all_options(),
+                        .limit = "apply to one scenario only",
+                        .cure = "for several files use only --out DIR, or only --html to compare the files"});
   if (!arguments.paths.of(uart_option).empty() && !on_a_chip(arguments))
     problems.push_back({.where = std::string(uart_option),
                         .limit = "writes the serial output of a chip, but this run has no chip",

@@ -109,7 +109,7 @@ std::optional<Problem> wrong_count(const Called& called, const std::string& last
     if (static_cast<int>(option->results().size()) > option->get_items_expected_max())
       return Problem{.where = option->get_name(), .limit = "is given more than once", .cure = "keep one"};
   return Problem{.where = last_word,
-                 .limit = "needs a value after it",
+                 .limit = "needs a value behind the option",
                  .cure = meaning(called, called.verb->get_option_no_throw(last_word))};
 }
 
@@ -156,7 +156,7 @@ std::optional<Problem> excluded(const Called& called) {
       if (option->count() > 0 && other->count() > 0)
         return Problem{.where = option->get_name(),
                        .limit = "cannot be combined with " + other->get_name(),
-                       .cure = "leave out one of the two"};
+                       .cure = "leave out one of the two options"};
   return {};
 }
 

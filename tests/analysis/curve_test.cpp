@@ -297,7 +297,7 @@ TEST(Curve, RefusesWhatMakesNone) {
   };
   refused(boil, "housing_degC = 120 leaves the magnets");
   refused([](CurveRequest& r) { r.bench.voltage_V = 0; }, "voltage_V = 0 must be above 0");
-  refused([](CurveRequest& r) { r.bench.motor.shaft.coulomb_Nm = 9; }, "duty = 1 gives no torque beyond");
+  refused([](CurveRequest& r) { r.bench.motor.shaft.coulomb_Nm = 9; }, "duty = 1 gives less torque than");
 }
 
 TEST(IdealLine, EndsAtZeroWhereTheCurrentCannotTurnBack) {

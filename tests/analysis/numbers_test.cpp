@@ -65,7 +65,7 @@ TEST(Numbers, OfABenchAreHeldToTheTable) {
       "points = 2147483647 must be at most 200000; give fewer points; some hundred are enough for a page");
   many.points = 41;
   many.bench.voltage_V = 1e4;
-  EXPECT_NE(first(analysis::check(many)).find("makes the field turn at 2.39e+06 electrical rad/s"),
+  EXPECT_NE(first(analysis::check(many)).find("turns the field at 2.39e+06 electrical rad/s"),
             std::string::npos)
       << first(analysis::check(many));
 }

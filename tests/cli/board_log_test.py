@@ -155,7 +155,7 @@ class LogsOfOthers(LogTest):
     def test_simplefoc_has_neither_head_nor_time(self):
         self.log("MOT: Monitor enabled!\nMOT: Init\nMOT: Ready.\n",
                  lambda n, r: f"5.0000\t14.4000\t0.0000\t{1e3 * r['i_m_A']:.4f}\t0.0000\t{r['speed_rad_s']:.4f}\t0.1\n")
-        self.assertIn("is a SimpleFOC monitor log, which has no time; give the interval of its rows", self.compared(code=2)[1])
+        self.assertIn("is a SimpleFOC monitor log, which has no time; give the interval of the rows", self.compared(code=2)[1])
         self.assertIn("speed_rad_s", self.compared("--interval", "0.003")[0], "by the order of its bits")
         self.expect_right("--interval", "0.003", "--columns", "speed=column 6,i_m=column 4/1000")
 
@@ -170,7 +170,7 @@ class LogsOfOthers(LogTest):
     def test_a_broken_formula_is_no_other_one(self):
         self.log("t [ms],erpm,i_m [mA]\n", lambda n, r: f"{1e3 * r['t_s']:.1f},{r['speed_rad_s'] * RPM * PAIRS:.1f},{1e3 * r['i_m_A']:.2f}\n")
         for formula, place in (("speed=erpm*", 11), ("speed=*erpm", 7), ("speed=erpm**2", 11), ("speed=erpm*2*pi/60/8*", 21)):
-            self.assertIn(f"--columns = {formula} lacks a constant or a column beside the * at place {place}",
+            self.assertIn(f"--columns = {formula} lacks a constant or a column beside the * at character {place}",
                           self.compared("--columns", formula, code=2)[1])
 
     def test_an_interval_beside_a_time_must_agree(self):

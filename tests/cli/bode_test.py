@@ -90,7 +90,7 @@ class Bode(ProgramTest):
             (self.path / "b.json").unlink()
             lost = told["designed"]["phase_margin_deg"] - told["measured"]["phase_margin_deg"]
             self.assertEqual(lost > 5, beside)
-            self.assertEqual('deg from the designed one' in made and 'pwm.chopping = "complementary" lets the current reverse' in made, beside)
+            self.assertEqual('deg from the designed loop' in made and 'set pwm.chopping = "complementary", with which the current can reverse' in made, beside)
             page = (self.path / "b.html").read_text()
             self.assertIn("±", page)
             self.assertNotIn("+-", page[page.index("<h1"):page.index("<footer") if "<footer" in page else len(page)])
@@ -111,12 +111,12 @@ class Bode(ProgramTest):
                 (("sp.toml", *ideal), None, ()),
                 (("po.toml", *both), "Hall probes resolve the position only in steps of 7.5 deg", (ideal,))), 3):
             with self.subTest(words=words):
-                beside = re.findall("deg from the designed one: (.*)", self.run_program("run", *words, "--bode").stdout)
+                beside = re.findall("deg from the designed loop: (.*)", self.run_program("run", *words, "--bode").stdout)
                 self.assertEqual(len(beside), said is not None, beside)
                 if said:
                     self.assertTrue(beside[0].startswith(said), beside)
                 for cure in cures:
-                    self.assertNotIn("from the designed one", self.run_program("run", *words, *cure, "--bode").stdout)
+                    self.assertNotIn("from the designed loop", self.run_program("run", *words, *cure, "--bode").stdout)
 
     def test_json_is_alone_on_standard_output(self):
         made = self.run_program("run", LOCKED, "--bode", "--amplitude", "0.5", "--json", "-")

@@ -196,9 +196,9 @@ class CommandLine(ProgramTest):
                 ("run a.toml --htlm x", "--htlm is not an argument of sixstep run; did you mean --html?"),
                 ("run a.toml --duraton 3", "--duraton is not an argument of sixstep run; did you mean --set duration_s=..?"),
                 ("run a.toml --supply-voltage=3", "--supply-voltage=3 is not an argument of sixstep run; did you mean --set supply.voltage_V=..?"),
-                ("run a.toml --csv", "--csv needs a value after it; it means: write the recorded trace"),
+                ("run a.toml --csv", "--csv needs a value behind the option; it means: write the recorded trace"),
                 ("run a.toml --html x --html y", "--html is given more than once; keep one"),
-                ("run a.toml --runs 5 --watch", "--watch cannot be combined with --runs; leave out one of the two"),
+                ("run a.toml --runs 5 --watch", "--watch cannot be combined with --runs; leave out one of the two options"),
                 ("run a.toml --jobs 0", "--jobs = 0 must be a whole number in 1 to 1024; sixstep run --help lists all"),
                 ("run a.toml --seed -1", f"--seed = -1 must be a whole number in 0 to {2**63 - 1}; sixstep run --help lists all"),
                 ("curve maxon-251601 --points 1e9", "--points = 1e9 must be a whole number; it means: number of speeds from standstill to no load. Default: 41"),
@@ -234,7 +234,7 @@ class CommandLine(ProgramTest):
         for words in (["motor", "new"], ["motor", "check"], ["export", "fmu"]):
             self.assertEqual(self.run_program("help", *words).stdout, self.run_program(*words, "--help").stdout)
         self.assertIn("is not a command of sixstep motor", self.run_program("help", "motor", "mew", code=2).stderr)
-        self.assertIn("looked up beside the scenario", both)
+        self.assertIn("searched beside the scenario", both)
 
 
 if __name__ == "__main__":

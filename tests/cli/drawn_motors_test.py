@@ -123,7 +123,7 @@ class MotorTest(ProgramTest):
             self.assertRegex(first.stdout, "^(good|usable)")
             return
         if first.returncode == 2:  # a position for which no gain was found
-            advised = re.findall(r"finds no gain without overshoot: .*; take (.*)$", first.stderr)
+            advised = re.findall(r"has no gain without overshoot.*; use (.*)$", first.stderr)
         else:
             self.assertRegex(first.stdout, "^NOT USABLE: ")
             advised = re.findall(r"(?m)^    usable with (.*)$", first.stdout)

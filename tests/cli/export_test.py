@@ -100,7 +100,7 @@ class Gate(ProgramTest):
         result = self.run_program("export", "header", self.scenario(name), *words, "--out", "d.hpp", code=code)
         self.assertEqual((result.stdout, self.names()), ("", []))
         *lines, last = result.stderr.splitlines()
-        self.assertEqual(last, "no header was written; to write it anyway, add --despite REASON, and the header states these reasons")
+        self.assertEqual(last, "no header was written; to write the header anyway, add --despite REASON; the header then states these reasons")
         return [line.removeprefix(self.scenario(name) + ": ") for line in lines]
 
     def test_a_header_that_passed_says_what_it_passed(self):

@@ -164,8 +164,8 @@ class Follower:
     def edits(self):
         """The patterns of the cures, from the most special to the most general."""
         yield r"^did you mean \"?([\w.-]+)\"?\?$", self.replace_word
-        yield r"^write (\w+) and give the value in that unit: 1 \S+ = (\S+) ", self.rename_and_scale
-        yield r"^write (\w+) and give the value in that unit$", self.replace_word
+        yield r"^write the key as (\w+) and give the value in the key's unit: 1 \S+ = (\S+) ", self.rename_and_scale
+        yield r"^write the key as (\w+) and give the value in the key's unit$", self.replace_word
         yield r"^write (?:at least )?(-?[\d.e-]+)(?=[ ,;])", self.replace_value
         yield r"^write (\w+) = \.\.", self.insert_wanted
         yield r"write frame = .* fits (\"\w+\")", lambda frame: self.replace_at("{ ", f"{{ frame = {frame}, ")

@@ -28,7 +28,7 @@ class Numbers(ProgramTest):
             self.assertIn("--bandwidth", self.refused("design", "maxon-251601", "--method", "cancellation", "--bandwidth", number))
             self.refused("design", "maxon-251601", "--step", number)
             self.assertIn("--angle", self.refused("design", "maxon-251601", "--models", "a.json", "--angle", number))
-        self.assertIn("makes the field turn at", self.refused("design", "maxon-251601", "--voltage", "1e5"))
+        self.assertIn("turns the field at", self.refused("design", "maxon-251601", "--voltage", "1e5"))
 
     def test_options_of_curve(self):
         for option in ["--voltage", "--duty", "--pwm-period", "--on-resistance", "--diode-drop", "--ambient"]:

@@ -53,7 +53,7 @@ class OnCore(ProgramTest):
                             ((AVR, "--on", "none.toml"), "none.toml"),
                             ((AVR, "--on", MAP), "build the firmware first"),
                             ((AVR, "--on", "retuned.toml"), "chip"),
-                            (("drifts.toml", "--on", "avr"), "give its offset and gain from the start"),
+                            (("drifts.toml", "--on", "avr"), "give the transducer's offset and gain from the start"),
                             (("retuned.toml", "--on", "riscv"), "fixed in the core's program"),
                             ((SPEED, "--uart", "u.csv"), "this run has no chip"),
                             ((SPEED, "--on", "cortex-m4", "--uart", "u.csv"), "add --on avr")):

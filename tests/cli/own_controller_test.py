@@ -88,7 +88,7 @@ class OwnController(Started):
         self.is_named("thread-exit", r"ended the program by exit\(\) in a thread that it had started" + ENDS)
 
     def test_what_is_written_beside_its_bytes(self):
-        beside = r"(wrote beside its {0}|crashed \(SIGSEGV: .*\))"
+        beside = r"(wrote to memory outside its {0}|crashed \(SIGSEGV: .*\))"
         for by in (1, 2, 8, 15, 16, 17, 32, 64, 255, 256, 1000, 4095, 4096):
             self.is_named("behind-state", beside.format("state") + AT_20 + ENDS, by=by)
             self.is_named("behind-config", beside.format("config") + " in its design" + ENDS, by=by)

@@ -243,7 +243,7 @@ class Plan(ProgramTest):
                             ([*varied, "--watch"], "--watch repeats one scenario"),
                             ([*varied, "--vary", "supply.voltage_V=5,6"], "is varied already"),
                             ([*varied, "--set", "supply.voltage_V=6"], "--set supply.voltage_V has no effect, because the plan varies this key"),
-                            ([*varied, "--points", "4", "--sampling", "grid"], "--points = 4 applies to drawn points")):
+                            ([*varied, "--points", "4", "--sampling", "grid"], "--points = 4 applies only to drawn points")):
             self.assertIn(told, self.run_program("run", self.held(), *words, code=2).stderr)
         self.assertEqual(self.names(), ["a.toml"])
 

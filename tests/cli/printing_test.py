@@ -85,7 +85,7 @@ class Unheard(ProgramTest):
                     code, told = self.answer(words, full)
                     self.assertEqual(code, 2)
                     self.assertTrue(told.endswith("standard output: cannot be written: No space left on device; send the output "
-                                                  "to a file or a program that can accept it\n"), told)
+                                                  "to a file with free space, or to a program that reads all lines\n"), told)
             self.assertEqual(self.answer("run failing.toml", full)[0], 2)
             self.assertEqual(self.answer(f"run {SOURCE}/data/scenarios/product-broken-hall-line.toml", full)[0], 3, "a fault is graver")
 

@@ -68,7 +68,7 @@ class RefusedKeys(Started):
         self.assertEqual(self.run_program("run", "a.toml", "--csv", "o.csv").stderr, "")
         for words, said in ((("--csv", "p.csv", "--set", "record.grid_s=1e-9"), r"--csv: one row per 1 ns gives about 10000 million rows, 34\d\d GB; for fewer rows set a longer record\.grid_s"),
                             (("--mat73", "p.mat", "--set", "record.grid_s=1e-9", "--set", 'record.columns=["i_a_A"]'), r"--mat73: one row per 1 ns gives about 10000 million rows, 160 GB; .*"),
-                            (("--set", "pwm.period_s=1e-8"), r"its 1000 million control periods of 10 ns take some 17 minutes")):
+                            (("--set", "pwm.period_s=1e-8"), r"the 1000 million control periods of 10 ns take some 17 minutes")):
             with self.subTest(words), self.started("run", "a.toml", "--set", "duration_s=10", *words) as program:
                 self.assertRegex(program.stderr.readline(), f"^a: {said}\n$")
 

@@ -377,7 +377,7 @@ TEST(DriveDesign, RefusesALowestSpeedWithoutRoomAboveIt) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(
       to_string(refused.problems()[0]),
-      "lowest_speed_rad_s = 451 is too high for the test, a step down to it from 1.2 times this speed: on this bus at most 450 rad/s; lower this value, or give a higher voltage_V");
+      "lowest_speed_rad_s = 451 is too high for the test, a step from 1.2 times this speed down to this speed; this bus allows at most 450 rad/s; lower this value, or give a higher voltage_V");
   spec.voltage_V = 30;
   EXPECT_TRUE(design_drive(motor, spec)) << "the cure";
 }

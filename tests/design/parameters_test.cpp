@@ -147,14 +147,13 @@ TEST(MotorModel, AMotorTooFastToBeOneHasASlipInAUnit) {
   henry.inductance_mH->value = 0.572e-3;
   EXPECT_EQ(
       problems_of(henry),
-      "inductance_mH = 0.000572 makes the winding's time constant L/R 555 ns, and no motor is below 1000 ns; "
-      "check the unit of inductance and resistance\n");
+      "inductance_mH = 0.000572 gives the winding a time constant L/R of 555 ns, and no motor has less than 1000 ns; "
+      "correct the unit of inductance or resistance\n");
   Sheet kilograms = maxon();
   kilograms.inertia_gcm2->value = 1.35e-5;
   EXPECT_EQ(
       problems_of(kilograms),
-      "inertia_gcm2 = 1.35e-05 makes rotor and winding swing at K_t/sqrt(L J) = 1.21e+06 rad/s, and "
-      "no motor is above 1e5; check the unit of the inertia, then the units of inductance and torque constant\n");
+      "inertia_gcm2 = 1.35e-05 lets rotor and winding oscillate at K_t/sqrt(L J) = 1.21e+06 rad/s, and no motor has more than 1e5 rad/s; correct the unit of the inertia, of the inductance or of the torque constant\n");
 }
 
 TEST(MotorModel, EveryProblemIsReportedAtOnce) {

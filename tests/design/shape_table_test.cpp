@@ -151,7 +151,7 @@ TEST(ShapeTable, WhatIsNoTableIsTold) {
   const auto first = [](const Sheet& s) { return told(s).substr(0, told(s).find('\n')); };
   Sheet s = sheet_of(corners(120));
   s.back_emf_shape.pop_back();
-  EXPECT_NE(first(s).find("back_emf_shape = 3 values needs one for each of the 4"), std::string::npos)
+  EXPECT_NE(first(s).find("back_emf_shape = 3 values needs one value for each of the 4"), std::string::npos)
       << first(s);
   s = sheet_of({{0, 120, 120.001, 300}, {1, 1, -1, -1}});
   EXPECT_NE(first(s).find("at least 0.01 deg before the next angle"), std::string::npos) << first(s);

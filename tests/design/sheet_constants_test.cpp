@@ -103,7 +103,7 @@ TEST(SheetConstants, AMissingFrameIsToldWithWhatEachWouldMean) {
   s.stall_current_A->value = 24 / 1.03 / 2;
   ends(s, "fits \"phase\"");
   s.stall_current_A->value = 24 / 1.03 * 2;
-  ends(s, "fits neither: it is U divided by half of the resistance");
+  ends(s, "fits neither, which is U divided by half of the resistance");
   s.stall_current_A->value = 30;
   ends(s, "30 A, fits neither");
   s = printed_251601();
@@ -190,7 +190,7 @@ TEST(SheetConstants, ABadNumberIsOneClearError) {
     s.resistance_ohm->value = bad;
     const std::string limit = std::isfinite(bad) ? " must be above 0" : " must be a finite number";
     EXPECT_EQ(told(s), "resistance_ohm = " + base::written(bad) + limit +
-                           "; give the value as the sheet prints it, or leave the key out");
+                           "; give the value that the sheet prints, or remove this key");
     s = printed_251601();
     s.torque_constant_mNm_A->value = bad;
     EXPECT_EQ(told(s).find('\n'), std::string::npos) << told(s);

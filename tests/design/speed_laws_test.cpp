@@ -211,8 +211,10 @@ TEST(SpeedLawDesign, SaysWhatCannotBeDesigned) {
   slow.fades_1_s = 300.0;
   const auto d = design::state_feedback(slow);
   ASSERT_FALSE(d);
-  EXPECT_THAT(to_string(d.problems()[0]),
-              HasSubstr("settle_s = 0.02 is longer than the settling time by friction alone, 0.01533 s"));
+  EXPECT_THAT(
+      to_string(d.problems()[0]),
+      HasSubstr(
+          "settle_s = 0.02 is longer than the settling time that friction causes without a controller, 0.01533 s"));
   EXPECT_TRUE(design::disturbance_rejection(slow));
   SpeedLawSpec late = maxon();
   late.lag_periods = 1e6;

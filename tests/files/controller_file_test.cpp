@@ -37,12 +37,11 @@ TEST(ControllerFile, WhatIsNoneIsToldAsSuch) {
   EXPECT_EQ(
       told("other_interface.so"),
       folder +
-          "/other_interface.so has a controller whose interface = 2 is not 1, the interface of this program: compile it "
-          "with this program's own_controller.h; correct this member as sixstep/control/own/own_controller.h describes it");
+          "/other_interface.so has a controller whose interface = 2 is not 1, the interface of this program: compile the controller with this program's own_controller.h; correct this member as sixstep/control/own/own_controller.h describes it");
   EXPECT_EQ(told("in_float.so"),
             folder +
                 "/in_float.so has a controller whose interface = 257 is compiled for float, and this program "
-                "needs double; compile it without -DSIXSTEP_REAL=float");
+                "needs double; compile the controller without -DSIXSTEP_REAL=float");
   const std::string text = ::testing::TempDir() + "text.so";
   std::ofstream(text) << "no machine code\n";
   const auto loaded = files::load_controller(text);

@@ -75,7 +75,7 @@ TEST(CostCard, a_switch_that_stays_on_is_no_chopping) {
   EXPECT_EQ(switching_words(on.outcome, on.trace), "no chopping; 2 turn-ons of all six");
   study::Scenario off = maxon_scenario(control::Mode::off, 0.0);
   const Ran never_on = ran(off);
-  EXPECT_EQ(switching_words(never_on.outcome, never_on.trace), "none: no switch is ever turned on");
+  EXPECT_EQ(switching_words(never_on.outcome, never_on.trace), "none: no switch was turned on");
 }
 
 TEST(CostCard, of_rows_that_are_the_last_part_says_so) {

@@ -98,7 +98,7 @@ TEST(CurveTable, ShowsAnEngineersUnits) {
        {"maxon EC 45 flat 251601 at 24 V\n", "locked", "just turning", "no load", "best efficiency",
         "nominal torque", "780.58 mNm at standstill, 6841.3 rpm",
         "No load: 6709.5 rpm (702.613 rad/s) with 0.1531 A",
-        "83.40 mNm, 5240 rpm, 2.330 A; at that torque the curve has 5078 rpm (-3.1 %)",
+        "83.40 mNm, 5240 rpm, 2.330 A; at this torque the curve has 5078 rpm (-3.1 %)",
         "R/K_t^2 is 8.76, which neglects the commutation time",
         "The motor can run continuously on this curve from 5027 rpm (86.64 mNm) on.",
         "At 25 degC ambient the winding stays below 125 degC with 2.82 A", "for 60 s", "continuously"})

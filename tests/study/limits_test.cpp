@@ -116,13 +116,12 @@ TEST(Limits, OfASalientRotorAreNotPromised) {
   s.sheet.q_axis_inductance_mH = base::Quantity{.value = 0.34};
   EXPECT_EQ(refusal(s), "not refused");
   s.control.limits.current_A = 6;
-  EXPECT_THAT(
-      refusal(s),
-      HasSubstr("control.limits.current_A = 6 is guaranteed only for a rotor with equal L_d and L_q"));
+  EXPECT_THAT(refusal(s),
+              HasSubstr("control.limits.current_A = 6 can be kept only for a rotor with equal L_d and L_q"));
   s.control.limits = {.speed_rad_s = 300};
   EXPECT_THAT(
       refusal(s),
-      HasSubstr("control.limits.speed_rad_s = 300 is guaranteed only for a rotor with equal L_d and L_q"));
+      HasSubstr("control.limits.speed_rad_s = 300 can be kept only for a rotor with equal L_d and L_q"));
   EXPECT_THAT(refusal(s), HasSubstr("L_q is 1.42 times its L_d"));
 }
 

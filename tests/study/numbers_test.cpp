@@ -115,7 +115,7 @@ TEST(Numbers, OfASheetThatLiesAreRefused) {
   s.inductance_mH->value = 1e6;  // 1 kH: a time constant far above 100 s
   const auto slow = design::motor_model(s);
   ASSERT_FALSE(slow);
-  EXPECT_NE(first(slow.problems()).find("no motor is above 100 s"), std::string::npos)
+  EXPECT_NE(first(slow.problems()).find("no motor has more than 100 s"), std::string::npos)
       << first(slow.problems());
   s = testing::maxon_sheet();
   s.pole_pairs = 100'000;

@@ -251,7 +251,7 @@ TEST(PositionProfile, ContradictionsAreTold) {
   EXPECT_THAT(
       with([](Control& c) { c.position.profile.acceleration_rad_s2 = 6e4; }),
       HasSubstr(
-          "acceleration_rad_s2 = 60000 takes J a = 0.81 N m, and the drive's torque limit is 0.78 N m"));
+          "acceleration_rad_s2 = 60000 needs a torque J a = 0.81 N m, and the drive's torque limit is 0.78 N m"));
   EXPECT_THAT(with([](Control& c) { c.position.profile.speed_rad_s = 800.0; }),
               HasSubstr("is above the no-load speed of the bus, 716 rad/s"));
   EXPECT_THAT(with([](Control& c) { c.position.profile.smoothing_s = 1000.0; }),

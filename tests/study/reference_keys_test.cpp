@@ -136,7 +136,7 @@ TEST(ReferenceKeys, ARampBesideAListIsRefused) {
   ASSERT_EQ(problems.size(), 2u);
   EXPECT_EQ(
       base::to_string(problems[0]),
-      "reference.times_s has no effect with shape = \"ramp\"; set shape = \"steps\" or \"csv\", or remove this key; if an extended file has it, reference = { .. } replaces all keys of that file's reference");
+      "reference.times_s has no effect with shape = \"ramp\"; set shape = \"steps\" or \"csv\", or remove this key; if an extended file has this key, reference = { .. } replaces all keys of the extended file's reference");
   EXPECT_EQ(problems[1].where, "reference.values");
 }
 

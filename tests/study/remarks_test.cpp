@@ -199,7 +199,7 @@ TEST(Remarks, GainsPerSecondAreThoseOfASampleTimesThePeriod) {
   per_second.control.current.ki = 0.03;
   const auto twice = study::run(per_second);
   ASSERT_FALSE(twice);
-  EXPECT_THAT(to_string(twice.problems()[0]), HasSubstr("keep ki or ki_per_s"));
+  EXPECT_THAT(to_string(twice.problems()[0]), HasSubstr("remove ki or ki_per_s"));
 }
 
 TEST(Remarks, ASettlingTimeThatIsSlowerThanTheRotorItself) {

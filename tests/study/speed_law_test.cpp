@@ -231,8 +231,10 @@ TEST(SpeedLaw, SaysWhatALawDoesNotHave) {
   s.load.viscous_Nm_s = 0.01;  // J/B = 1.35 ms
   const auto refused = study::compile(s);
   ASSERT_FALSE(refused);
-  EXPECT_THAT(to_string(refused.problems()[0]),
-              HasSubstr("control.speed.settle_s = 0.02 is longer than the settling time by friction alone"));
+  EXPECT_THAT(
+      to_string(refused.problems()[0]),
+      HasSubstr(
+          "control.speed.settle_s = 0.02 is longer than the settling time that friction causes without a controller"));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

@@ -44,9 +44,8 @@ TEST(BoardLog, ATracesOwnHeadingInAnotherUnitIsRefused) {
     const auto log = text::read_board_log("b.csv", text);
     return log ? std::string("nothing") : log.problems()[0].limit + "; " + log.problems()[0].cure;
   };
-  EXPECT_THAT(
-      told("t_s,i_m_A [mA]\n0,1\n1,2\n"),
-      HasSubstr("in A by its name but in mA by the unit after it; write the heading i_m_A or i_m [mA]"));
+  EXPECT_THAT(told("t_s,i_m_A [mA]\n0,1\n1,2\n"),
+              HasSubstr("whose name says A but whose unit says mA; write the heading i_m_A or i_m [mA]"));
   EXPECT_THAT(told("t_s,speed_rad_s [rpm]\n0,1\n1,2\n"),
               HasSubstr("write the heading speed_rad_s or speed [rpm]"));
   EXPECT_THAT(told("t_s [ms],i_m [mA]\n0,1\n1,2\n"), HasSubstr("write the heading t_s or t [ms]"));
@@ -73,7 +72,7 @@ TEST(BoardLog, SaysWhatIsWrong) {
   EXPECT_THAT(limit("t [us],i_m [mA]\n1,x\n2,4\n"), HasSubstr("is not a number"));
   EXPECT_THAT(limit("i_m [mA],duty\n1,0\n2,0\n"), ::testing::Not("nothing"));
   EXPECT_EQ(limit("t [us],i_m [mA]\n1,2\n"), "nothing");  // the comparison decides whether two rows suffice
-  EXPECT_THAT(limit("t [us],i_m [mA]\n"), HasSubstr("holds no row of numbers"));
+  EXPECT_THAT(limit("t [us],i_m [mA]\n"), HasSubstr("contains no row of numbers"));
   EXPECT_EQ(limit("t [us],i_m [mA]\n1,2\n3,4\n"), "nothing");
 }
 
@@ -86,10 +85,10 @@ std::string limit_with(const std::string& formula) {
 
 TEST(BoardLog, ABrokenFormulaIsRefusedWithItsPlace) {
   for (const auto& [formula, place] :
-       {std::pair{"speed=erpm*", "* at place 11"}, std::pair{"speed=*erpm", "* at place 7"},
-        std::pair{"speed=erpm**2", "* at place 11"}, std::pair{"speed=erpm/*2", "/ at place 11"},
-        std::pair{"speed=2**erpm", "* at place 9"}, std::pair{"speed=-*erpm", "* at place 8"},
-        std::pair{"speed=erpm*2*pi/60/8*", "* at place 21"}, std::pair{"time=t/", "/ at place 7"}})
+       {std::pair{"speed=erpm*", "* at character 11"}, std::pair{"speed=*erpm", "* at character 7"},
+        std::pair{"speed=erpm**2", "* at character 11"}, std::pair{"speed=erpm/*2", "/ at character 11"},
+        std::pair{"speed=2**erpm", "* at character 9"}, std::pair{"speed=-*erpm", "* at character 8"},
+        std::pair{"speed=erpm*2*pi/60/8*", "* at character 21"}, std::pair{"time=t/", "/ at character 7"}})
     EXPECT_THAT(limit_with(formula), testing::AllOf(testing::StartsWith("columns = "), HasSubstr(place)))
         << formula;
   for (const char* formula : {"speed=e*rpm", "speed=erpm+", "speed=erpm^", "speed=e/rpm*2", "speed=erpm*two"})

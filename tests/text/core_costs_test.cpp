@@ -96,7 +96,7 @@ TEST(CoreCosts, APeriodTooShortForAnImageIsToldAsTheImageHasIt) {
   EXPECT_EQ(text::too_short_for_images(100e-6), "");
   EXPECT_EQ(
       text::too_short_for_images(30e-6),
-      "a control period of 30 us is shorter than the ATmega2560's image needs (100 us). Below 69.6 us the "
+      "a control period of 30 us is shorter than the shortest period of the ATmega2560's image (100 us). Below 69.6 us the "
       "STM32F303's image may apply a command one period late: look for `missed` above 0 in its log");
   EXPECT_EQ(
       text::too_short_for_images(69.6e-6),

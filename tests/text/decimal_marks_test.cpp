@@ -34,17 +34,17 @@ std::string told(const std::string& file) {
 TEST(DecimalMarks, CommasBesidePointsAreRefusedWithBothCells) {
   EXPECT_EQ(
       seen(in_millivolts("t (ms)\tu_ab (mV)\tu_bc (mV)\n", "{:.1f}\t{}\t{}\n", ',')).problem,
-      "r.csv:2: holds 3,784, and line 2 holds 0.0: which of the two marks is decimal is unclear; write thousands without a separator, for example 2940, and use one decimal mark, or remove the column");
+      "r.csv:2: contains 3,784, and line 2 contains 0.0: either mark may be the decimal mark; write thousands without a separator, for example 2940, and use one decimal mark, or remove the column");
   EXPECT_THAT(told("t;u\n0,5;1,5\n1;1.025\n"),
-              AllOf(StartsWith("r.csv:3: holds 1.025, and line 2 holds 0,5")));
+              AllOf(StartsWith("r.csv:3: contains 1.025, and line 2 contains 0,5")));
 }
 
 TEST(DecimalMarks, AMarkFromAThousandOnIsRefused) {
   for (const char mark : {',', '.'})
     EXPECT_THAT(seen(in_millivolts("t (ms);u_ab (mV);u_bc (mV)\n", "{:.0f}0;{};{}\n", mark)).problem,
-                AllOf(StartsWith(fmt::format("r.csv:2: holds 3{}784 beside ", mark)),
+                AllOf(StartsWith(fmt::format("r.csv:2: contains 3{}784 beside ", mark)),
                       HasSubstr("may mean 3784 or 3.784")));
-  EXPECT_THAT(told("t;rpm\n0;2,865\n1;2,870\n"), HasSubstr("holds 2,865, which may mean 2865 or 2.865"));
+  EXPECT_THAT(told("t;rpm\n0;2,865\n1;2,870\n"), HasSubstr("contains 2,865, which may mean 2865 or 2.865"));
   // Spreadsheets may show thousands separators in every column.
   EXPECT_THAT(told("ms;rpm\n1000;2,865\n2000;2,870\n"), HasSubstr("may mean 2865 or 2.865"));
 }
@@ -53,7 +53,7 @@ TEST(DecimalMarks, AMarkFromAThousandOnIsRefused) {
 TEST(DecimalMarks, ACommaWithinQuotesPartsNoCells) {
   for (const char* head : {"t (ms),u_ab (mV),u_bc (mV)\n", ""})
     EXPECT_THAT(seen(in_millivolts(head, "{:.1f},\"{}\",\"{}\"\n", ','), between_lines).problem,
-                HasSubstr("which of the two marks is decimal"));
+                HasSubstr("either mark may be the decimal mark"));
   const auto named = read_recording("r.csv", "\"time, of the shot [s]\",\"u_ab, mV\"\n0,\"1\"\n1,2\n3,4\n");
   ASSERT_TRUE(named);
   EXPECT_EQ(named->columns.size(), 2u);

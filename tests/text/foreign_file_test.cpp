@@ -34,7 +34,7 @@ std::string told(const char* content) {
 TEST(ForeignFile, SaysWhatItIsAndWhatMakesAMotorOfIt) {
   EXPECT_EQ(
       told(vesc),
-      "m.xml:1:1: is a VESC motor configuration, but a TOML file is required; make a motor file of it: sixstep motor new NAME "
+      "m.xml:1:1: is a VESC motor configuration, but a TOML file is required; make a motor file from this file: sixstep motor new NAME "
       "--from m.xml");
   EXPECT_THAT(told(moteus), HasSubstr("is a moteus configuration, but a TOML file is required"));
   EXPECT_THAT(told(odrive), HasSubstr("is an ODrive configuration, but a TOML file is required"));

@@ -43,7 +43,7 @@ TEST(HostileInput, ABusFasterThanAnyBoardIsRefusedWithItsTimeConstant) {
   EXPECT_THAT(
       told(head + bus),
       ElementsAre(
-          "x.toml:5:17: supply.capacitance_F = 1e-07 makes the bus's time constant with supply.resistance_ohm = 0.2 and the winding 14.4 ns, and no board is below 100 ns; check the unit of this value: a bus has hundreds of microfarads; for a stiff bus remove resistance and capacitance"));
+          "x.toml:5:17: supply.capacitance_F = 1e-07 gives the bus, with supply.resistance_ohm = 0.2 and the winding, a time constant of 14.4 ns, and no board has less than 100 ns; correct the unit of this value: a bus has hundreds of microfarads; for a stiff bus remove resistance and capacitance"));
   EXPECT_THAT(told(head + "[supply]\nresistance_ohm = 0.2\ncapacitance_F = 1e-5\n"), SizeIs(0));
   EXPECT_THAT(told(head + "[initial]\nbus_V = 1e308\n[supply]\nresistance_ohm = 0.2\ncapacitance_F = 1e-3\n"),
               ElementsAre(HasSubstr("initial.bus_V = 1e308 must be above 0 and at most 100000")));
@@ -59,8 +59,8 @@ TEST(HostileInput, ABatteryThatRecoversAtOnceIsRefused) {
         farad + "\n");
   };
   EXPECT_THAT(battery("1e-6"),
-              ElementsAre(HasSubstr("supply.battery_recovery_F = 1e-06 makes the battery's time "
-                                    "constant with supply.battery_recovery_ohm = 0.05 30.8 ns")));
+              ElementsAre(HasSubstr("supply.battery_recovery_F = 1e-06 gives the battery's recovery, with "
+                                    "supply.battery_recovery_ohm = 0.05, a time constant of 30.8 ns")));
   EXPECT_THAT(battery("4e-6"), SizeIs(0));
 }
 
@@ -102,7 +102,7 @@ TEST(HostileInput, ASwitchOfMegohmsIsRefused) {
   EXPECT_THAT(told(head + "[bridge]\non_resistance_ohm = 1e9\n"),
               ElementsAre(HasSubstr("bridge.on_resistance_ohm = 1e9 must lie in 0 to 1000000")));
   EXPECT_THAT(told(head + "[bridge]\non_resistance_ohm = 1e5\n"),
-              ElementsAre(HasSubstr("makes the time constant of winding and bridge 2.86 ns")));
+              ElementsAre(HasSubstr("gives winding and bridge a time constant of 2.86 ns")));
 }
 
 TEST(HostileInput, AFrictionThatStopsTheRotorAtOnceIsRefused) {
@@ -116,7 +116,7 @@ TEST(HostileInput, ABandThatNoBridgeFollowsIsRefusedAndIsNoDefect) {
                 band_A + " }\n[reference]\nvalue = 5\n");
   };
   EXPECT_THAT(band("1e-15"), ElementsAre(HasSubstr("control.current.band_A = 1e-15 must be at least 1e-09")));
-  EXPECT_THAT(band("1e-6"), ElementsAre(HasSubstr("widen it to at least 0.0021 A")));
+  EXPECT_THAT(band("1e-6"), ElementsAre(HasSubstr("widen this value to at least 0.0021 A")));
   EXPECT_THAT(band("0.0022"), SizeIs(0));
 }
 
@@ -211,7 +211,7 @@ TEST(HostileInput, OfAHundredThousandMistakesAHundredAreTold) {
   for (int n = 0; n < 100'000; ++n) keys += fmt::format("nonsense_{} = 1\n", n);
   const std::vector<std::string> lines = told(head + keys);
   ASSERT_THAT(lines, SizeIs(101));
-  EXPECT_EQ(lines.back(), "x.toml: is wrong in 99900 more places; correct those above first");
+  EXPECT_EQ(lines.back(), "x.toml: is wrong in 99900 more places; correct the errors above first");
   EXPECT_THAT(told(head + repeated("[[require]]\nmetric = 1\n", 20'000)),
               ElementsAre(HasSubstr("has 20000 tables; at most 10000 are allowed")));
 }

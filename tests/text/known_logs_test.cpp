@@ -217,7 +217,7 @@ TEST(KnownLogs, HostileSistersAreRefused) {
   EXPECT_THAT(told(blackbox("")), HasSubstr("is a Betaflight log without eRPM; turn on bidirectional DShot"));
   EXPECT_THAT(told(with(vesc(), "ms_today", "clock")), HasSubstr("has no column of time"));
   EXPECT_THAT(told(simple_foc()),
-              HasSubstr("is a SimpleFOC monitor log, which has no time; give the interval of its rows"));
+              HasSubstr("is a SimpleFOC monitor log, which has no time; give the interval of the rows"));
   // No known set of SimpleFOC's columns has five columns.
   EXPECT_THAT(told("MOT: Ready.\n1\t2\t3\t4\t5\n1\t2\t3\t4\t5\n", 0.01), testing::Not(HasSubstr("a log of")));
   // If the file is cut off, the incomplete last row does not count. A binary file contains no table.

@@ -79,11 +79,9 @@ TEST_F(MotorFile, EachSlipIsOneClearErrorWithItsCure) {
       {sheet_with("inertia_gcm2 = 0"),
        "m.toml:7:16: inertia_gcm2 = 0 must be above 0; it means: moment of inertia of the rotor, in g cm2"},
       {sheet_with("resistance_kohm = 1.03"),
-       "m.toml:8:1: resistance_kohm is not a key here; write resistance_ohm and give the value in that "
-       "unit: 1 kohm = 1000 ohm"},
+       "m.toml:8:1: resistance_kohm is not a key here; write the key as resistance_ohm and give the value in the key's unit: 1 kohm = 1000 ohm"},
       {sheet_with("torque_constant_Nm_Arms = 0.4"),
-       "m.toml:8:1: torque_constant_Nm_Arms is not a key here; write torque_constant_Nm_A and give the "
-       "value in that unit, with a frame that is rms"},
+       "m.toml:8:1: torque_constant_Nm_Arms is not a key here; write the key as torque_constant_Nm_A and give the value in the key's unit, with a frame that is rms"},
       {sheet_with("poles = 15"),
        "m.toml:8:9: poles = 15 must be an even number from 2 on; magnet poles come in pairs of north and "
        "south; if the sheet counts pairs, write pole_pairs"},

@@ -172,9 +172,9 @@ TEST(PrintedUnits, AMakersWordLeadsToTheKeyOfItsMeaning) {
       {"terminal_resistance_ohm", "resistance_ohm with frame = \"terminal\""},
       {"terminal_inductance_uH", "inductance_uH with frame = \"terminal\""},
       {"back_emf_constant_mV_rpm",
-       "back_emf_constant_V_krpm and give the value in that unit: 1 mV/rpm = 1 V/krpm"},
+       "back_emf_constant_V_krpm and give the value in the key's unit: 1 mV/rpm = 1 V/krpm"},
       {"rotor_inertia_gcm2", "inertia_gcm2"},
-      {"no_load_current_A", "no_load_current_mA and give the value in that unit: 1 A = 1000 mA"},
+      {"no_load_current_A", "no_load_current_mA and give the value in the key's unit: 1 A = 1000 mA"},
       {"static_friction_mNm", "coulomb_friction_mNm"},
       {"C_0", "coulomb_friction_mNm"},
       {"C_V", "viscous_friction_Nm_s as \"4.3e-4 mNm/rpm\""},
@@ -192,7 +192,7 @@ TEST(PrintedUnits, AMakersWordLeadsToTheKeyOfItsMeaning) {
       {"KV_rpm_V", "speed_constant_rpm_V with frame"},
       {"internal_resistance_mohm", "resistance_mohm with the frame"},
       {"configuration", "winding as \"12N14P\""},
-      {"idle_current_mA", "idle_current_A and give the value in that unit: 1 mA = 0.001 A"},
+      {"idle_current_mA", "idle_current_A and give the value in the key's unit: 1 mA = 0.001 A"},
       // Portescap, Nanotec
       {"resistance_line_to_line_ohm", "resistance_ohm with frame = \"terminal\""},
       {"inductance_line_to_line_mH", "inductance_mH with frame = \"terminal\""},
@@ -203,8 +203,9 @@ TEST(PrintedUnits, AMakersWordLeadsToTheKeyOfItsMeaning) {
       {"max_coil_temperature_degC", "max_winding_temperature_degC"},
       // servo drives
       {"torque_constant_Nm_Arms",
-       "torque_constant_Nm_A and give the value in that unit, with a frame that is rms"},
-      {"nominal_current_Arms", "nominal_current_A and give the value in that unit, with a frame that is rms"},
+       "torque_constant_Nm_A and give the value in the key's unit, with a frame that is rms"},
+      {"nominal_current_Arms",
+       "nominal_current_A and give the value in the key's unit, with a frame that is rms"},
       // maxon
       {"starting_current_A", "stall_current_A"},
       {"terminal_resistance_phase_to_phase_ohm", "resistance_ohm with frame = \"terminal\""},
@@ -238,7 +239,7 @@ TEST(PrintedUnits, OfADeltaBothValuesThatAPhaseCanMeanAreNamed) {
                                "pole_pairs = 2\nconnection = \"delta\"\n"
                                "resistance_ohm = { value = 0.1, frame = \"phase\" }\nback_emf_mV_s = 5\n");
   EXPECT_THAT(all, HasSubstr("If a drive identified the value"));
-  EXPECT_THAT(all, HasSubstr("if it is of one branch of the delta, write 2/3 of it"));
+  EXPECT_THAT(all, HasSubstr("if the value is of one branch of the delta, write 2/3 of the value"));
   EXPECT_THAT(all, HasSubstr("give back_emf_constant_V_krpm with frame = \"line-peak\""));
 }
 

@@ -251,7 +251,7 @@ TEST(RecordedDoubts, WhatNoMotorHasIsRefused) {
   // The voltage columns are in millivolts, but their headings say kilovolts.
   EXPECT_THAT(seen(plain("time [s],u_ab [kV],u_bc [kV]\n", "{:.6f},{:.5f},{:.5f}\n", 1.0, 1e3)).problem,
               AllOf(HasSubstr("no brushless machine is built with more than 1e+06"),
-                    HasSubstr("the voltage is read too great")));
+                    HasSubstr("the voltage is too great")));
 }
 
 TEST(RecordedDoubts, ClippedNoisyAndTornRecordingsAreCalledSo) {
@@ -261,7 +261,7 @@ TEST(RecordedDoubts, ClippedNoisyAndTornRecordingsAreCalledSo) {
     });
   };
   EXPECT_THAT(seen(of([](int, double u) { return std::clamp(u, -2.6, 2.6); })).problem,
-              HasSubstr("u_ab is clipped: it stays at 2.6 or -2.6 V"));
+              HasSubstr("u_ab is clipped: the voltage stays at 2.6 or -2.6 V"));
   EXPECT_THAT(seen(of([](int n, double u) {
                 return std::clamp(u + 0.01 * std::sin(7919.0 * n * n), -3.5, 9.0);
               })).problem,

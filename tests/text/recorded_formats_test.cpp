@@ -103,8 +103,9 @@ TEST(RecordedFormats, RigolMso5000) {
       table("CH1V,CH2V,t0 =-2.500000e-02, tInc = 1.000000e-04,\n",
             [](int, double, double a, double b) { return fmt::format("{:.5e},{:.5e},,\n", a, b); });
   expect_right(file);
-  EXPECT_THAT(seen(file, between_lines).notes,
-              ElementsAre("has no column of time; the rows are 0.0001 s apart by \"tInc = 0.0001\""));
+  EXPECT_THAT(
+      seen(file, between_lines).notes,
+      ElementsAre("has no column of time; the rows are 0.0001 s apart, as the file says: \"tInc = 0.0001\""));
   expect_right(file, 1e-5,
                {.hall = {}, .voltages = {}, .between = analysis::EmfBetween::lines, .interval_s = dt});
 }

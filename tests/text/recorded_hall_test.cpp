@@ -107,8 +107,10 @@ TEST(RecordedHall, SigrokWithoutTime) {
   expect_right(found, rows);
   ASSERT_FALSE(found.log.t_s.empty());
   EXPECT_NEAR(found.log.t_s.back(), 0.2, 1e-4);
-  EXPECT_THAT(found.notes,
-              Contains("has no column of time; the rows are 5e-05 s apart by \"Samplerate: 20 kHz\""));
+  EXPECT_THAT(
+      found.notes,
+      Contains(
+          "has no column of time; the rows are 5e-05 s apart, as the file says: \"Samplerate: 20 kHz\""));
 }
 
 /// At one sample per microsecond, the numbers are nanoseconds. At one sample per nanosecond, the numbers are

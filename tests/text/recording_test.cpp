@@ -122,12 +122,13 @@ TEST(Recording, WhatIsNoTable) {
   EXPECT_EQ(told_of_emf(gz),
             "r.csv: is not a text file; export the recording as CSV, or unpack a .gz with gzip -d");
   EXPECT_THAT(told_of_emf("\x1f\x8b\x08\x08\x1c\xffno zero among these"),
-              StartsWith("r.csv:1: holds no row of numbers; export the recording as text"));
-  EXPECT_THAT(told_of_emf("time,u_ab\n"), StartsWith("r.csv:1: holds no row of numbers"));
-  EXPECT_THAT(told_of_emf("<html>\n<p>Sign in</p>\n</html>\n"), StartsWith("r.csv: holds no row of numbers"));
+              StartsWith("r.csv:1: contains no row of numbers; export the recording as text"));
+  EXPECT_THAT(told_of_emf("time,u_ab\n"), StartsWith("r.csv:1: contains no row of numbers"));
+  EXPECT_THAT(told_of_emf("<html>\n<p>Sign in</p>\n</html>\n"),
+              StartsWith("r.csv: contains no row of numbers"));
   std::string words;
   for (int n = 0; n < 500; ++n) words += "one line of a letter\n";
-  EXPECT_THAT(told_of_emf(words), StartsWith("r.csv: holds no row of numbers"));
+  EXPECT_THAT(told_of_emf(words), StartsWith("r.csv: contains no row of numbers"));
 }
 
 TEST(Recording, CellsThatAreNoNumbersAreNamedByTheirLine) {
@@ -233,7 +234,7 @@ TEST(Recording, WrongColumns) {
 /// With a wrong separator, the file seems to have only one column.
 TEST(Recording, WrongSeparators) {
   EXPECT_THAT(told_of_hall("time|hall1|hall2|hall3\n0|1|0|0\n1|1|1|0\n"),
-              StartsWith("r.csv: holds no row of numbers"));
+              StartsWith("r.csv: contains no row of numbers"));
   EXPECT_THAT(told_of_emf("time,u_ab\n0,0,1,5\n0,001,2,5\n"),
               AllOf(StartsWith("r.csv:2: has 4 cells below 2 headings"),
                     HasSubstr("; export the file with semicolons")));

@@ -76,7 +76,7 @@ TEST(ReferenceFile, AHeadingMayBringAUnit) {
 
 TEST(ReferenceFile, EachSlipIsToldWithItsLine) {
   EXPECT_THAT(told(""), ElementsAre(HasSubstr("r.csv: is empty; ")));
-  EXPECT_THAT(told("t,i\n"), ElementsAre(HasSubstr("r.csv:1: holds no row of numbers; ")));
+  EXPECT_THAT(told("t,i\n"), ElementsAre(HasSubstr("r.csv:1: contains no row of numbers; ")));
   EXPECT_THAT(told("0\n1\n"), ElementsAre("r.csv:1: has 1 column; each row is a time in s and a value"));
   EXPECT_THAT(told("0,1\n0.1\n0.2,x\n0.1,1\n0.1,1\n-1,nan\n"),
               ElementsAre("r.csv:2: column 2 \"\" is not a number; write numbers as 0.5 or 5e-1",
@@ -90,7 +90,8 @@ TEST(ReferenceFile, EachSlipIsToldWithItsLine) {
               ElementsAre("r.csv: has no column \"torqe\"; did you mean \"torque\"?"));
   EXPECT_THAT(
       told("0,1\n", "torque"),
-      ElementsAre("r.csv:1: has no headings; write headings in the first line, one of them \"torque\""));
+      ElementsAre(
+          "r.csv:1: has no headings; write headings in the first line, and the heading \"torque\" above the wanted column"));
   std::string broken = "0,1\n";
   for (int n = 0; n < 100; ++n) broken += "x,y\n";
   EXPECT_EQ(told(broken).size(), 6u);
@@ -128,7 +129,7 @@ TEST_F(ReferenceInAFile, ItsSlipsAreToldWhereTheyStand) {
   EXPECT_THAT(
       complaints("file = \"none.csv\"\n"),
       ElementsAre("x.toml:7:8: reference.file = \"none.csv\" names none.csv, which cannot be read: No "
-                  "such file or directory; check the path and the permission to read it"));
+                  "such file or directory; check the path and your permission to read the file"));
   EXPECT_THAT(complaints("file = \"/dev/zero\"\n"),
               ElementsAre("x.toml:7:8: reference.file = \"/dev/zero\" names /dev/zero, which cannot be read: "
                           "it is not a regular file; name a file"));
@@ -159,12 +160,13 @@ TEST_F(ReferenceInAFile, WhatCannotChangeDuringARunIsToldWhatCan) {
   for (const char* key :
        {"reference", "load.torque_Nm", "control.mode", "pwm.chopping", "bridge.dead_time_s"})
     EXPECT_THAT(what, HasSubstr(key));
-  EXPECT_THAT(complaints("times_s = [0]\nvalues = [0]\n[[at]]\ntime_s = 0.005\npwm.period_s = 1e-5\n"
-                         "supply.resistance_ohm = 1\nload.torque_mNm = 1\n"),
-              ElementsAre("x.toml:11:5: at.pwm.period_s is not a key here; " + what,
-                          "x.toml:12:8: at.supply.resistance_ohm is not a key here; " + what,
-                          "x.toml:13:6: at.load.torque_mNm is not a key here; write torque_Nm and give "
-                          "the value in that unit: 1 mNm = 0.001 Nm"));
+  EXPECT_THAT(
+      complaints("times_s = [0]\nvalues = [0]\n[[at]]\ntime_s = 0.005\npwm.period_s = 1e-5\n"
+                 "supply.resistance_ohm = 1\nload.torque_mNm = 1\n"),
+      ElementsAre(
+          "x.toml:11:5: at.pwm.period_s is not a key here; " + what,
+          "x.toml:12:8: at.supply.resistance_ohm is not a key here; " + what,
+          "x.toml:13:6: at.load.torque_mNm is not a key here; write the key as torque_Nm and give the value in the key's unit: 1 mNm = 0.001 Nm"));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

@@ -156,7 +156,7 @@ TEST_F(Family, ANameThatLeadsNowhereOrInACircleIsTold) {
       complaints("extends = \"none.toml\"\n" + head),
       ElementsAre(
           "x.toml:1:11: extends = \"none.toml\" names none.toml, which cannot be read: No such file or "
-          "directory; check the path and the permission to read it"));
+          "directory; check the path and your permission to read the file"));
   EXPECT_THAT(
       complaints("extends = \"x.toml\"\n" + head),
       ElementsAre(

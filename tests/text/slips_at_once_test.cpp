@@ -41,7 +41,7 @@ TEST_F(SlipsAtOnce, AllSlipsAreToldAtOnce) {
       HasSubstr(":8:16: inertia_gcm2 = -135 must be above 0; it means: moment of inertia"),
       HasSubstr(":9:1: inertias is not a key here; "),
       HasSubstr(":10:18: cogging_orders = 13 must be a multiple of the number of poles, 16; "),
-      HasSubstr(":11:15: cogging_mNm = 2 values needs one for each of the 1 cogging_orders; "),
+      HasSubstr(":11:15: cogging_mNm = 2 values needs one value for each of the 1 cogging_orders; "),
   };
   EXPECT_THAT(told(sheet), ::testing::ElementsAreArray(all));
   // A consequence is not reported: after the misspelt key is corrected, both axes are given.

@@ -155,9 +155,9 @@ TEST(Units, OfAReferenceFollowTheMode) {
   EXPECT_EQ(
       told(duration + "control.mode = \"current\"\nreference.value = \"955 rpm\"\n"),
       "x.toml:4:19: reference.value = \"955 rpm\" has the unit rpm, which cannot be converted to A; units that fit: A or mA");
-  EXPECT_EQ(told(duration + "reference.value = \"955 rpm\"\n"),
-            "x.toml:3:19: reference.value = \"955 rpm\" is in the unit of control.mode, and this mode has "
-            "none; set control.mode, or write a number without quotes");
+  EXPECT_EQ(
+      told(duration + "reference.value = \"955 rpm\"\n"),
+      "x.toml:3:19: reference.value = \"955 rpm\" is in the unit of control.mode, but this mode has no unit; set control.mode, or write a number without quotes");
   EXPECT_EQ(told("duration_s = \"-20 ms\"\n"),
             "x.toml:2:14: duration_s = \"-20 ms\" must be above 0 and at most 9000000000, in ms; it means: "
             "simulated time, in s");

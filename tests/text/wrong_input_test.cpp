@@ -79,12 +79,12 @@ TEST_F(WrongInput, UnknownKeyIsAnsweredWithTheNearest) {
 TEST_F(WrongInput, WrongUnitIsToldAsSuch) {
   EXPECT_THAT(
       complaints(head + "[supply]\nvoltage_mV = 24000\n"),
-      ElementsAre("x.toml:4:1: supply.voltage_mV is not a key here; write voltage_V and give the value "
-                  "in that unit: 1 mV = 0.001 V"));
+      ElementsAre(
+          "x.toml:4:1: supply.voltage_mV is not a key here; write the key as voltage_V and give the value in the key's unit: 1 mV = 0.001 V"));
   EXPECT_THAT(
       complaints(head + "[supply]\nvoltage = 24\n"),
       ElementsAre(
-          "x.toml:4:1: supply.voltage lacks its unit; write voltage_V and give the value in that unit"));
+          "x.toml:4:1: supply.voltage lacks its unit; write the key as voltage_V and give the value in the key's unit"));
 }
 
 TEST_F(WrongInput, TextWhereANumberBelongs) {
@@ -120,7 +120,7 @@ TEST_F(WrongInput, MissingRequiredKeysPointAtTheirTable) {
   EXPECT_THAT(
       complaints("title = \"x\"\n[[require]]\nmax = 1\n"),
       ElementsAre(
-          "x.toml:1:1: motor is missing; write motor = ..: motor file: a path, or a name looked up beside "
+          "x.toml:1:1: motor is missing; write motor = ..: motor file: a path, or a name that is searched beside "
           "the scenario, in the data folder and in the built-in list",
           "x.toml:1:1: duration_s is missing; write duration_s = ..: simulated time, in s",
           "x.toml:2:1: require.metric is missing; write metric = ..: name of the figure that is computed from the signal"));
@@ -306,9 +306,10 @@ TEST_F(WrongInput, ValuesOfTheCommandLineAreNamedAsSuch) {
 TEST_F(WrongInput, UnreadableFile) {
   const base::Result<study::Scenario> result = files::read_scenario("no/such/file.toml");
   ASSERT_FALSE(result);
-  EXPECT_EQ(to_string(result.problems().at(0)),
-            "no/such/file.toml: cannot be read: No such file or directory; check the path and the permission "
-            "to read it");
+  EXPECT_EQ(
+      to_string(result.problems().at(0)),
+      "no/such/file.toml: cannot be read: No such file or directory; check the path and your permission "
+      "to read the file");
   for (const char* name : {"hill.tml", "hill"}) {
     const std::string near = write("hill.toml", head), path = (folder_ / name).string();
     const base::Result<study::Scenario> misspelt = files::read_scenario(path);

@@ -40,7 +40,7 @@ std::string sensor_offset(const study::Compiled& c) {
   if (offset_deg == 0.0) return "";
   return constant("std::uint32_t", "sensor_offset",
                   fmt::format("0x{:08x}u", sixstep::control::binary_degrees(offset_deg)),
-                  fmt::format("{} deg, 2^32 to a turn: subtract it from the electrical angle",
+                  fmt::format("{} deg, 2^32 to a turn: subtract this offset from the electrical angle",
                               sixstep::base::six_digits(offset_deg)));
 }
 
@@ -55,7 +55,8 @@ std::string timing(const study::Compiled& c, const study::Clearance* clearance) 
   if (clearance && clearance->needs_sink)
     bridge += std::string(c.product ? " whose" : ", and whose") + " supply takes current back";
   return constant("bool", "cleared", flag(cleared),
-                  cleared ? bridge + ", by its run" : "NOT for a bridge: refuse it by a static_assert") +
+                  cleared ? bridge + ", by its run"
+                          : "NOT cleared for a bridge: refuse this header with a static_assert") +
          constant("std::uint8_t", "pole_pairs",
                   std::to_string(static_cast<int>(c.believed.motor.machine.pole_pairs)),
                   "electrical turns per mechanical turn") +
@@ -65,7 +66,7 @@ std::string timing(const study::Compiled& c, const study::Clearance* clearance) 
          constant("bool", "pwm_centre_aligned", flag(m.centre_aligned),
                   "true: centred pulse; false: pulse at the period's start") +
          constant("std::uint64_t", "dead_time_ps", fmt::format("{:.0f}", dead),
-                  dead > 0 ? us(dead) : "no dead time: firmware for a bridge needs one") +
+                  dead > 0 ? us(dead) : "no dead time: firmware for a bridge needs a dead time") +
          (c.field ? ""
                   : constant("bool", "commutate_at_sample", flag(c.board.commutate_at_sample),
                              "true: at the sample; false: in the Hall interrupt")) +
@@ -309,7 +310,7 @@ base::Result<std::string> config_header(const ConfigHeader& w) {
   if (w.scenario.control.drive == study::FirmwareKind::own)
     return base::Problem{
         "control.drive", "\"own\"",
-        "has its constants in its own source, and a header configures the library's drives only",
+        "has its constants in its own source, and a header configures only the library's drives",
         "compile the controller's source for the chip instead of exporting a header"};
   const base::Result<study::Compiled> c = study::compile(w.scenario);
   if (!c) return c.problems();

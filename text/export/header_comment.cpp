@@ -63,7 +63,7 @@ std::string entries(const study::Compiled& c) {
            "// sensorless_drive_commutate at the compare match that next_commutation sets, sensorless_drive_hall in a Hall interrupt, and\n"
            "// sensorless_capture at an edge of a comparator at a terminal.\n";
   if (c.estimator.on)
-    return "// Call sensorless_field_step in each tick, with the measured currents and bus; it estimates the magnet's angle.\n";
+    return "// Call sensorless_field_step in each tick, with the measured currents and bus voltage. The function estimates the magnet's angle.\n";
   if (c.field)
     return "// Call field_drive_step in each tick, with the measured currents, speed and bus, and with the magnet's direction, which\n"
            "// field_directions computes from a decoder's electrical angle. Hall edges need no call.\n";

@@ -57,7 +57,7 @@ void check_pins(const MapFile& w, Complaints& c) {
              "name the pins as the data sheet does: [\"PK0\", \"PK1\", \"PK2\"]");
     for (const std::string& pin : *pins)
       if (!taken.insert(pin).second)
-        refuse(c, key, fmt::format("names {} a second time", pin), "give each line its own pin");
+        refuse(c, key, fmt::format("names {} a second time", pin), "name a different pin for each line");
   }
   if (std::any_of(w.hall.begin(), w.hall.end(),
                   [](const std::string& pin) { return pin.rfind("PK", 0) != 0; }))

@@ -134,11 +134,13 @@ base::Problem other_kind(const std::string& unit, const Unit& from, const Unit& 
   if (wanted.unit == "s" && plain_spelling(unit).ends_with("Hz"))
     return {.limit = fmt::format("has the unit {}, and this key is a time", unit),
             .cure = "write the period, 1 over the frequency: 20 kHz is 50 us. Units that fit: " + fit};
-  return {.limit = fmt::format("has the unit {}, which cannot be converted to {}", unit, wanted.unit),
-          .cure = multiplies_minutes(from, to) ? "this unit contains minutes as a factor; write " per rpm
-                                                 " as /rpm or /min-1. Units that fit: " +
-                                                     fit
-                                               : "units that fit: " + fit};
+  return {
+      .limit = fmt::format("has the unit {}, which cannot be converted to {}", unit, wanted.unit),
+      .cure =
+          multiplies_minutes(from, to)
+              ? "this unit contains minutes as a factor; write a value per rpm with /rpm or /min-1. Units that fit: " +
+                    fit
+              : "units that fit: " + fit};
 }
 
 base::Problem other_measure(const std::string& unit, std::string_view measure, const Wanted& wanted) {

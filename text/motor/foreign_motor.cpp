@@ -302,7 +302,7 @@ class ForeignMotor {
     const ForeignWord* const torque = find("torque_constant");
     if (torque && foreign_number(torque->value) == 0.04)
       text += wrapped_comment(
-          "torque_constant = 0.04 is the firmware's default: check whether it is this motor's value");
+          "torque_constant = 0.04 is the firmware's default: replace this value if the motor has another torque constant");
     return text +
            wrapped_comment("shape of the back-EMF over the electrical angle, sine or trapezoid: " +
                            std::string(tool_.name) + " computes with a sine") +

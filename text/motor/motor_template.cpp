@@ -72,7 +72,7 @@ base::Result<std::string> motor_template(std::string_view style_name, const std:
       "# shape of the back-EMF over the electrical angle, trapezoid or sine: sheets rarely state it\n"
       "back_emf = \"{}\"\n\n",
       style->what, toml_text(name), style->name == "maxon" ? "maxon" : "",
-      style->linear ? "kind = \"linear\"  # it moves along a line\n" : "", style->shape);
+      style->linear ? "kind = \"linear\"  # the motor moves along a line\n" : "", style->shape);
   for (const std::string_view key : style->needed)
     if (const KeyEntry* entry = find_key(keys, key)) text += line(*style, *entry, key, true);
   text += "\n";

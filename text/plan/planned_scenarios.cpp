@@ -126,7 +126,7 @@ base::Problems PlannedScenarios::check() const {
     const std::string& key = plan_.axes[k].key;
     if (std::find(std::begin(same_in_all), std::end(same_in_all), table_of(key)) != std::end(same_in_all)) {
       problems.push_back(
-          {fmt::format("vary[{}].key", k), key, "is the same in all runs of a plan",
+          {fmt::format("vary[{}].key", k), key, "must be the same in all runs of a plan",
            "vary keys of the motor, board, control or load; requirements are the same for all runs"});
       continue;
     }

@@ -61,7 +61,7 @@ base::Problems said_twice(const Recording& r) {
       if (recorded.unit.empty() || recorded.unit == unit) continue;
       found.push_back(of_recording(
           r,
-          fmt::format("has a column \"{}\", which is in {} by its name but in {} by the unit after it",
+          fmt::format("has a column \"{}\", whose name says {} but whose unit says {}",
                       bounded(recorded.heading, 200), unit, recorded.unit),
           fmt::format("write the heading {} or {} [{}]", column.name,
                       column.name.substr(0, column.name.size() - unit.size() - 1), recorded.unit)));
@@ -102,8 +102,9 @@ Values formula_values(const Recording& r, const ColumnFormula& formula, const Wa
   // for erpm. So a formula must write the name exactly.
   const bool as_headed = formula.column == column->name || formula.column == column->heading;
   if (!as_headed && formula.column.find_first_of("*/+^=") != std::string::npos)
-    return of_recording(r, fmt::format("has no column \"{}\"", bounded(formula.column, 200)),
-                        "write constants (numbers or pi) before the column with *, or after it with * or /");
+    return of_recording(
+        r, fmt::format("has no column \"{}\"", bounded(formula.column, 200)),
+        "write constants (numbers or pi) before the column with *, or behind the column with * or /");
   if (!formula.scaled) {
     Values values = values_of(r, found->front(), wanted);
     if (values && formula.factor != 1.0)

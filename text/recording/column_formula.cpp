@@ -63,7 +63,7 @@ std::optional<std::size_t> operator_without_constant(std::string_view text, std:
 base::Problem broken_formula(std::string_view text, std::size_t place) {
   return bounded({.where = "columns",
                   .value = std::string(text),
-                  .limit = fmt::format("lacks a constant or a column beside the character {} number {}",
+                  .limit = fmt::format("lacks a constant or a column beside the {} at character {}",
                                        text[place], place + 1),
                   .cure = "remove this sign, or write the constant, for example speed=erpm*2*pi/60/7"});
 }
@@ -86,7 +86,7 @@ base::Result<ColumnFormula> column_formula(std::string_view text) {
   if (!out.name.empty() && !out.column.empty() && is_finite) return out;
   return bounded({.where = "columns",
                   .value = std::string(text),
-                  .limit = is_finite ? "must be NAME=COLUMN, with or without constants after it"
+                  .limit = is_finite ? "must be NAME=COLUMN, with or without constants behind the column"
                                      : "has constants whose product is 0 or not finite",
                   .cure = "write for example time=ms_today/1000 or speed=erpm*2*pi/60/7"});
 }

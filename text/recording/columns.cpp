@@ -117,7 +117,7 @@ base::Result<std::vector<Picked>> columns_called(const Recording& recording,
         std::count(headings.begin(), headings.begin() + static_cast<std::ptrdiff_t>(n), heading));
     if (found.size() == 1 && before > 0)
       return of_recording(recording, fmt::format("is asked twice for the column \"{}\"", heading),
-                          "name each column once; it has " + headings_of(recording));
+                          "name each column once; the file has " + headings_of(recording));
     if (found.size() > 1 && asked != found.size()) return several(recording, heading, found);
     const RecordedColumn* const column = found[before];
     out.push_back({column, column->unit});

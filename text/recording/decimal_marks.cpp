@@ -79,8 +79,9 @@ std::optional<base::Problem> DecimalMarks::thousands(const std::string& file, Ma
     const std::string beside =
         column.hundreds ? fmt::format(" beside {} in line {}", column.hundreds->text, column.hundreds->line)
                         : "";
-    return in_doubt(file, first->line,
-                    fmt::format("holds {}{}, which may mean {} or {}", first->text, beside, whole, fraction));
+    return in_doubt(
+        file, first->line,
+        fmt::format("contains {}{}, which may mean {} or {}", first->text, beside, whole, fraction));
   }
   return {};
 }
@@ -90,10 +91,9 @@ std::optional<base::Problem> DecimalMarks::doubt(const std::string& file, char s
   if (comma && point) {
     const Cell &late = comma->line < point->line ? *point : *comma,
                &early = comma->line < point->line ? *comma : *point;
-    return in_doubt(
-        file, late.line,
-        fmt::format("holds {}, and line {} holds {}: which of the two marks is decimal is unclear", late.text,
-                    early.line, early.text));
+    return in_doubt(file, late.line,
+                    fmt::format("contains {}, and line {} contains {}: either mark may be the decimal mark",
+                                late.text, early.line, early.text));
   }
   if (comma) return thousands(file, &Column::comma, ',', false);
   return thousands(file, &Column::point, '.', separator != ';');

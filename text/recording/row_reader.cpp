@@ -203,7 +203,7 @@ base::Result<Recording> RowReader::result() {
                 "shorten the recording, remove columns, or keep every tenth row");
   if (out_.columns.empty() || out_.rows() == 0)
     return told(number_ > 1 ? out_.name + ":" : fmt::format("{}:{}:", out_.name, number_),
-                "holds no row of numbers",
+                "contains no row of numbers",
                 "export the recording as text: headings, then rows of numbers separated by commas");
   if (beside_) {
     Recording head;

@@ -68,7 +68,7 @@ std::string why_beside(const BodeStudy& s) {
                        !end.control.smooth_chopping.on && end.control.drive != study::FirmwareKind::field;
   if (one_way && s.without_current > least_without_current)
     return fmt::format(
-        "with this chopping the current cannot reverse, and it is zero at {:.2g} % of the samples. So rising and falling steps have different responses; pwm.chopping = \"complementary\" lets the current reverse",
+        "with this chopping the current cannot reverse, and the current is zero at {:.2g} % of the samples. So rising and falling steps have different responses; set pwm.chopping = \"complementary\", with which the current can reverse",
         100 * s.without_current);
   return "the response is not linear, because of commutation, dead time, discontinuous current or a limit";
 }
@@ -88,7 +88,7 @@ std::string beside_the_designed(const BodeStudy& s) {
     Hz = p.w_rad_s / sixstep::base::turn_rad;
   }
   if (Hz == 0.0) return "";
-  return fmt::format("at {:.3g} Hz the loop differs by {:+.2g} dB and {:+.2g} deg from the designed one: {}",
+  return fmt::format("at {:.3g} Hz the loop differs by {:+.2g} dB and {:+.2g} deg from the designed loop: {}",
                      Hz, most_dB, deg, why_beside(s));
 }
 
@@ -142,7 +142,7 @@ std::vector<std::string> bode_notes(const BodeStudy& s) {
   const bool sensorless = s.at_end.control.drive == study::FirmwareKind::sensorless;
   if (!analysis::answered(s.points))
     notes.push_back(fmt::format(
-        "NOTHING WAS MEASURED: no line reaches a coherence of {:g}: commutation, ripple or noise exceeds the response. Give a larger --amplitude, or lock the rotor (it then has no commutation). If the drive stopped, a run without --bode shows the reason",
+        "NOTHING WAS MEASURED: no line reaches a coherence of {:g}, because commutation, ripple or noise exceeds the response. Give a larger --amplitude, or set load.locked = true, which avoids commutations. If the drive stopped, a run without --bode shows the reason",
         analysis::little_coherence));
   else if (few > 0)
     notes.push_back(fmt::format(

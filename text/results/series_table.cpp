@@ -32,7 +32,7 @@ std::string required(const analysis::FigureColumn& f) {
 
 /// The least margin in words: "0.3 ms beyond its limit", "12 mA within its limits".
 std::string margin_text(const analysis::SpreadFigure& f) {
-  if (!std::isfinite(f.least_margin)) return "without a value within its limit";
+  if (!std::isfinite(f.least_margin)) return "without a finite value";
   return fmt::format("{} {} its limit{}",
                      quantity_text(std::fabs(f.least_margin), f.column.unit, spread_digits),
                      f.least_margin < 0.0 ? "beyond" : "within", f.column.min && f.column.max ? "s" : "");

@@ -137,7 +137,7 @@ std::string cure_mark(const analysis::Cure& c) {
 std::span<const std::pair<std::string_view, std::string_view>> recipe_steps() {
   static constexpr std::pair<std::string_view, std::string_view> steps[] = {
       {"the motor jerks and hums", "swap any two phase wires; then the motor runs"},
-      {"it runs rough",
+      {"the motor runs rough",
        "move all three phase wires by one leg, and once more if the motor is still rough; the motor then runs well in the opposite direction"},
       {"the motor runs well, but backward",
        "swap the phase wires at legs a and b and the Hall lines at H2 and H3, or reverse the sign of the reference"},
@@ -146,7 +146,7 @@ std::span<const std::pair<std::string_view, std::string_view>> recipe_steps() {
 }
 
 std::string_view recipe_note() {
-  return "With three of the six orders of the phase wires the motor hums. With two orders it runs rough in one direction, and with one order it runs well in the other direction. If two Hall lines are swapped, the motor runs backward with this last order, and moving phase wires alone cannot correct the direction.";
+  return "With three of the six orders of the phase wires the motor hums. With two orders the motor runs rough in one direction, and with one order it runs well in the other direction. If two Hall lines are swapped, the motor runs backward with this last order, and moving phase wires alone cannot correct the direction.";
 }
 
 std::string way_text(const analysis::WiringStudy& s, double electrical_deg) {

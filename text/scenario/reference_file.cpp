@@ -67,8 +67,10 @@ class RowsOf {
       return Picked{&r_.columns[1], r_.columns[1].unit};
     }
     if (!r_.has_headings)
-      return at_line(r_.line_of(0), "has no headings",
-                     fmt::format("write headings in the first line, one of them \"{}\"", *column));
+      return at_line(
+          r_.line_of(0), "has no headings",
+          fmt::format("write headings in the first line, and the heading \"{}\" above the wanted column",
+                      *column));
     const base::Result<std::vector<Picked>> found = columns_called(r_, {*column});
     if (!found) return found.problems();
     return found->front();

@@ -98,7 +98,7 @@ base::Problems Complaints::in_order() const {
   if (left_out_ > 0)
     problems.push_back({.where = document_.name() + ":",
                         .limit = "is wrong in " + std::to_string(left_out_) + " more places",
-                        .cure = "correct those above first"});
+                        .cure = "correct the errors above first"});
   return problems;
 }
 

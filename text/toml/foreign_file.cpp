@@ -45,7 +45,7 @@ std::optional<base::Problem> foreign_file(const std::string& name, std::string_v
       .where = name + ":1:1:",
       .value = "",
       .limit = fmt::format("is {}, but a TOML file is required", foreign_name(kind)),
-      .cure = fmt::format("make a motor file of it: sixstep motor new NAME --from {}", name)};
+      .cure = fmt::format("make a motor file from this file: sixstep motor new NAME --from {}", name)};
 }
 
 }  // namespace text

@@ -82,7 +82,8 @@ class Environment {
       throw py::value_error("actions need the shape (" + std::to_string(drives_.size()) + ", " +
                             std::to_string(actions_) + ")");
     if (!crew_.has_threads())
-      throw py::value_error("the environment was made in another process; make one in each process");
+      throw py::value_error(
+          "the environment was made in another process; make an environment in each process");
     for (const Drive& drive : drives_)
       if (!drive.session) throw py::value_error("call reset() before the first step()");
     for (std::size_t n = 0; n < drives_.size(); ++n)

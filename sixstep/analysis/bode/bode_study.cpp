@@ -146,7 +146,7 @@ base::Result<study::Session> at_the_end(const study::Scenario& s, const BodeStud
       {.on_record = {}, .on_event = {}, .on_logic = {}, .keep_going = order.keep_going, .keep_books = false});
   if (session && !session->advance(b.begin_s))
     return base::Problem{"duration_s", "", "is not reached: the run ended earlier or was interrupted",
-                         "find the cause with a run without --bode"};
+                         "find the cause with a run without this measurement"};
   return session;
 }
 
@@ -161,7 +161,7 @@ base::Result<std::vector<double>> outputs_of(study::Session& session, BodeStudy&
     const bool goes_on = session.advance(t_s);
     if (!goes_on && n + 1 < (1 + periods) * N)
       return base::Problem{"reference", "", "with the added multisine ended the run early",
-                           "give a smaller --amplitude"};
+                           "give a smaller amplitude"};
     output.push_back(controlled(session.present().signals, b));
     if (carries_no_current(session.present().signals)) ++without;
   }
@@ -213,9 +213,10 @@ base::Problems prepare(BodeStudy& b, const study::Scenario& s, const BodeOrder& 
   b.stands_at = waveform.back().at(s.duration_s);
   b.amplitude = amplitude_of(order, b.stands_at);
   if (!(b.amplitude > 0.0))
-    return {{"reference", "",
-             "is zero at the end of the run, so that the default amplitude, a twentieth of it, is also zero",
-             "give --amplitude, or set a final reference other than zero"}};
+    return {
+        {"reference", "",
+         "is zero at the end of the run, so the default amplitude, a twentieth of the reference, is also zero",
+         "give an amplitude, or set a final reference other than zero"}};
   const base::Result<study::Compiled> compiled = study::compile(last);
   if (!compiled) return compiled.problems();
   b.pole_pairs = compiled->motor.machine.pole_pairs;

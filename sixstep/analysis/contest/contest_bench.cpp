@@ -61,7 +61,7 @@ base::Result<design::DriveDesign> drive_design(const design::MotorModel& motor, 
   return base::Problem{
       "the motor", c.motor,
       "has no usable speed loop with Hall probes, not even with 20 times the design's settling time",
-      "find the reason with sixstep design --mode speed, or give a settling time"};
+      "find the reason with a design of this motor's speed loop, or give a settling time"};
 }
 
 Course course_of(const design::DriveDesign& d) {
@@ -210,7 +210,7 @@ study::Bridge usual_bridge(const design::DriveDesign& d) {
 base::Result<ContestBench> contest_bench(const ContestSpec& spec) {
   if (spec.sheet.kind == design::MotorKind::linear)
     return base::Problem{"the motor", spec.motor, "is a linear motor, and only rotary motors can be compared",
-                         "design each controller with sixstep design instead"};
+                         "design each controller separately, without a comparison"};
   const base::Result<design::MotorModel> motor = design::motor_model(spec.sheet);
   if (!motor) return motor.problems();
   base::Result<design::DriveDesign> d = drive_design(*motor, spec);
@@ -264,7 +264,7 @@ base::Result<std::vector<ContestKey>> keys_of(const Contestant& contestant, cons
     const std::size_t equals = one.find(" = ");
     if (equals == std::string_view::npos)
       return base::Problem{std::string(contestant.name), std::string(one), "is not a key with a value",
-                           "write it as key = value"};
+                           "write each part as key = value"};
     out.push_back({std::string(one.substr(0, equals)), std::string(one.substr(equals + 3))});
   }
   return out;

@@ -27,14 +27,13 @@ void check_pace(const Bench& b, base::Problems& problems) {
   };
   if (plant::field_at(m, b.voltage_V) > plant::fastest_field_rad_s)
     refuse("voltage_V", b.voltage_V,
-           "makes the field turn at " + base::rounded(plant::field_at(m, b.voltage_V), 3) +
+           "turns the field at " + base::rounded(plant::field_at(m, b.voltage_V), 3) +
                " electrical rad/s, and no motor reaches more than " +
                base::rounded(plant::fastest_field_rad_s, 3),
            "give a lower voltage, or correct the unit of the torque constant in the motor file");
   if (plant::winding_rate(m, b.devices) > plant::fastest_answer_1_s)
-    refuse("on_resistance_ohm", b.devices.R_on_ohm,
-           "makes the time constant of winding and bridge shorter than 100 ns",
-           "check the unit of this value: a MOSFET has milliohms");
+    refuse("on_resistance_ohm", b.devices.R_on_ohm, "gives winding and bridge a time constant below 100 ns",
+           "correct the unit of this value: a MOSFET has milliohms");
   const bool chops = b.duty != 1 && b.duty != -1;
   if (chops && m.L_H / m.R_ohm > most_periods * b.pwm_period_s)
     refuse("pwm_period_s", b.pwm_period_s,

@@ -28,7 +28,7 @@ inline base::Problems check_column(const std::string& name, const std::vector<do
   if (values.size() != rows)
     return {{.where = name,
              .value = std::to_string(values.size()) + " values",
-             .limit = "must be one for each of " + std::to_string(rows) + " times",
+             .limit = "must have one value for each of " + std::to_string(rows) + " times",
              .cure = "give columns of equal length"}};
   const auto wrong = std::find_if(values.begin(), values.end(), [](double x) { return !std::isfinite(x); });
   if (wrong == values.end()) return {};

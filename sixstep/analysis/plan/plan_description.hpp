@@ -33,7 +33,7 @@ struct PlanEntry {
 inline constexpr base::Choice<Sampling> sampling_choices[] = {
     {"grid", Sampling::grid, "every combination of the values of all keys"},
     {"latin-hypercube", Sampling::latin_hypercube,
-     "each key's range divided into as many parts as points, one point in each part"},
+     "Latin hypercube: each key's range is divided into as many parts as there are points, with one point in each part"},
     {"sobol", Sampling::sobol, "a sequence that fills the ranges evenly for any number of points"},
     {"monte-carlo", Sampling::monte_carlo, "at random"},
     {"saltelli", Sampling::saltelli,
@@ -49,10 +49,10 @@ inline void describe(base::Visitor& v, AxisEntry& s) {
   v.value("key", s.key, {.meaning = "key of the scenario that is varied, as pwm.period_s", .required = true});
   v.value("values", s.values, {.meaning = "values of the key, as in a scenario"});
   v.value("from", s.from,
-          {.meaning = "first end of a range, instead of values; a grid includes it", .unit_of = s.key});
+          {.meaning = "first end of a range, instead of values; a grid includes this end", .unit_of = s.key});
   v.value("to", s.to, {.meaning = "second end of the range", .unit_of = s.key});
   v.value("points", s.points,
-          {.meaning = "values from one end to the other on a grid", .range = base::between(0, 1e9)});
+          {.meaning = "number of values on a grid, both ends included", .range = base::between(0, 1e9)});
   v.choice("spacing", s.spacing, spacing_choices,
            {.meaning = "whether the values are spaced equally (linear) or by equal ratios (log)"});
   v.value(
@@ -62,7 +62,7 @@ inline void describe(base::Visitor& v, AxisEntry& s) {
 }
 
 inline void describe(base::Visitor& v, PlanEntry& s) {
-  v.value("title", s.title, {.meaning = "one line that names the plan"});
+  v.value("title", s.title, {.meaning = "title of the plan, one line"});
   v.value("scenario", s.scenario,
           {.meaning = "scenario of all runs, as a path relative to this file", .required = true});
   v.value("notes", s.notes, {.meaning = "question that the plan answers, shown on its page"});

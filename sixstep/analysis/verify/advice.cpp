@@ -169,7 +169,8 @@ Rescue rescue(const DesignOrder& order, const DriveDesign& d) {
     if (rescued(spec, next)) return {words_of_change(order.spec, spec), false};
   if (!nominal.empty())
     return {
-        nominal + ", tested with the sheet's nominal motor only: the tolerances take too long to simulate",
+        nominal +
+            ", tested only with the sheet's nominal motor, because the tolerances take too long to simulate",
         true};
   return out;
 }
@@ -187,7 +188,7 @@ std::string smaller_step(const DesignOrder& order, const DesignStudy& s) {
 /// Text for the case that all tried changes failed.
 std::string nothing_tried(const DriveDesign& d, bool too_long) {
   std::string text =
-      "none of the tried changes makes the design usable: other chopping, other period_s, other rotor sensor, slower loops, lower torque limit";
+      "none of the tried changes makes the design usable: other chopping, another period_s, another sensor, slower loops, a lower torque limit";
   if (too_long) text += "; changes that take longer to simulate were not tried";
   if (d.spec.settle_s && d.settle_by_torque_s > *d.spec.settle_s)
     text += "; this torque limit and inertia need settle_s = " +
@@ -275,7 +276,7 @@ void advise(const DesignOrder& order, base::Problems& problems) {
   const auto grave =
       std::find_if(d->warnings.begin(), d->warnings.end(), [](const Warning& w) { return w.grave; });
   if (const std::string words = rescue(order, *d).words; !words.empty())
-    problems.front().cure = "set " + words;
+    problems.front().cure = "use " + words;
   else if (grave != d->warnings.end())  // a gain would not remove this problem
     problems.front().cure = "correct the design's first problem first: " + grave->what;
 }

@@ -308,13 +308,13 @@ base::Result<study::Scenario> begun(const FirstScenarioSpec& spec) {
   if (outcome->fault)
     return base::Problem{"the motor", spec.motor,
                          "is stopped by a fault: " + base::to_string(*outcome->fault),
-                         "start with another --mode"};
+                         "start with another mode"};
   for (const study::Verdict& v : outcome->verdicts)
     if (!v.ok)
       return base::Problem{"the motor", spec.motor,
                            "does not run as its sheet predicts: the " + v.figure + " is " +
                                base::three_digits(v.measured) + " " + v.unit,
-                           "start with another --mode, or compare with the torque-speed curve of the motor"};
+                           "start with another mode, or compare with the torque-speed curve of the motor"};
   return s;
 }
 

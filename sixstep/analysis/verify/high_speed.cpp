@@ -39,7 +39,7 @@ void look_at_high_speed(const DesignOrder& order, DesignStudy& s) {
   if (!(std::fabs(*held - *ideal) > design::settling_band(s.design) * asked)) return;
   grain->grave = true;
   grain->what += ". In a run with a reference of " + base::three_digits(asked) + " rad/s the mean speed is " +
-                 base::three_digits(*held) + " rad/s; with ideal sensors it is " +
+                 base::three_digits(*held) + " rad/s; with ideal sensors the mean speed is " +
                  base::three_digits(*ideal) + " rad/s";
 }
 

@@ -78,7 +78,7 @@ template <class Walk, class Kept>
 void fields(Walk&& w, const control::PwmPatternConfig<double>& d, Kept& kept) {
   auto& [pattern, half_sector_per_rad_s] = kept;
   w.choice({"pattern"}, d.pattern, pattern, control::PwmPattern::upper);
-  w.gain({"half_sector_per_rad_s", "per rad/s", "of 30 electrical degrees, per sample"},
+  w.gain({"half_sector_per_rad_s", "per rad/s", "half sectors (30 electrical degrees) per sample"},
          d.half_sector_per_rad_s, half_sector_per_rad_s, {Base::one, Base::speed});
 }
 
@@ -125,7 +125,7 @@ void fields(Walk&& w, const control::PiPositionalConfig<double>& d, Kept& kept) 
   auto& [K, K_i, K_b, limit, K_c] = kept;
   w.gain({"K", "per rad/s"}, d.K, K, of_speed);
   w.gain({"K_i", "per rad/s", "per sample"}, d.K_i, K_i, of_speed);
-  w.gain({"K_b", "", "of the clamped excess, per sample"}, d.K_b, K_b, Ratio{});
+  w.gain({"K_b", "", "fraction of the clamped excess, subtracted per sample"}, d.K_b, K_b, Ratio{});
   w.signal({"limit", "of full torque"}, d.limit, limit, Base::one);
   w.gain({"K_c", "per rad/s", "at the limit, per sample"}, d.K_c, K_c, of_speed);
 }
@@ -154,7 +154,7 @@ void fields(Walk&& w, const control::ObservedSpeedConfig<double>& d, Kept& kept)
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::SlidingSpeedConfig<double>& d, Kept& kept) {
   auto& [q, f, reach, layer] = kept;
-  w.signal({"q", "", "of the error, per sample"}, d.q, q, Base::one);
+  w.signal({"q", "", "decay of the error per sample"}, d.q, q, Base::one);
   w.signal({"f", "per rad/s"}, d.f, f, Base::one);
   w.signal({"reach", "of full torque"}, d.reach, reach, Base::one);
   w.signal({"layer", "rad/s"}, d.layer, layer, Base::speed);
@@ -183,7 +183,7 @@ void fields(Walk&& w, const control::JerkProfileConfig<double>& d, Kept& kept) {
   w.signal({"rad_s2_per_part", "rad/s^2"}, d.rad_s2_per_part, rad_s2_per_part, Base::one);
   w.signal({"stride_per_tick"}, d.stride_per_tick, stride_per_tick, Base::one);
   w.count({"acceleration", "", "counts per stride^2"}, d.acceleration, acceleration, unset.acceleration);
-  w.count({"ticks", "", "of a stride"}, d.ticks, ticks, unset.ticks);
+  w.count({"ticks", "", "ticks of a stride"}, d.ticks, ticks, unset.ticks);
   w.count({"cells", "", "strides of the mean"}, d.cells, cells, unset.cells);
 }
 

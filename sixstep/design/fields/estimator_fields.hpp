@@ -65,7 +65,8 @@ void fields(Walk&& w, const control::EstimatorConfig<double>& c, Kept& kept) {
   w.flag({"on"}, c.on, on);
   w.part("tracking", c.tracking, tracking);
   w.count({"axis_ticks"}, c.axis_ticks, axis_ticks, unset.axis_ticks);
-  w.count({"late", "", "ticks from an answer to its period"}, c.late, late, unset.late);
+  w.count({"late", "", "control ticks from an answer to the period in which the answer acts"}, c.late, late,
+          unset.late);
   w.flag({"in_middle"}, c.in_middle, in_middle);
   w.gain({"rad_s", "rad/s"}, c.rad_s, rad_s, {Base::speed, Base::one});
   w.part("injection", c.injection, injection);

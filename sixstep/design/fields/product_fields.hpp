@@ -28,11 +28,11 @@ void fields(Walk&& w, const control::AdcConfig<double>& d, Kept& kept, const Adc
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::OneShuntConfig<double>& d, Kept& kept) {
   auto& [least_duty, commutation_samples, fade] = kept;
-  w.signal({"least_duty", "", "above it a sample shows the current", true}, d.least_duty, least_duty,
-           Base::one);
-  w.count({"commutation_samples", "", "after a Hall edge, used as the incoming phase's current"},
+  w.signal({"least_duty", "", "smallest duty at which a sample shows the current", true}, d.least_duty,
+           least_duty, Base::one);
+  w.count({"commutation_samples", "", "samples after a Hall edge that count as the incoming phase's current"},
           d.commutation_samples, commutation_samples, std::uint8_t{0});
-  w.signal({"fade", "", "of a hidden current, per tick"}, d.fade, fade, Base::one);
+  w.signal({"fade", "", "factor per tick on a current that no sample shows"}, d.fade, fade, Base::one);
 }
 
 template <class Walk, class Kept>
@@ -40,21 +40,23 @@ void fields(Walk&& w, const control::HallConfig& d, Kept& kept) {
   auto& [arrangement, stable_samples] = kept;
   constexpr control::HallConfig unset{};
   w.choice({"arrangement"}, d.arrangement, arrangement, unset.arrangement);
-  w.count({"stable_samples", "", "samples in a row"}, d.stable_samples, stable_samples, unset.stable_samples);
+  w.count({"stable_samples", "", "consecutive samples with the same Hall code"}, d.stable_samples,
+          stable_samples, unset.stable_samples);
 }
 
 template <class Walk, class Kept>
 void fields(Walk&& w, const control::HallSpeedConfig<double>& d, Kept& kept) {
   auto& [sector_rad_s_ticks, timeout_ticks, edges, window_ticks, grain_ticks] = kept;
   constexpr control::HallSpeedConfig<double> unset{};
-  w.ticks({"sector_rad_s_ticks", "rad/s", "divided by the ticks of a sector it is the speed", true},
-          d.sector_rad_s_ticks, sector_rad_s_ticks, Base::speed);
-  w.count({"timeout_ticks", "", "of the timer without an edge: standstill"}, d.timeout_ticks, timeout_ticks,
-          unset.timeout_ticks);
-  w.count({"edges", "", "for the average of a speed"}, d.edges, edges, unset.edges);
-  w.count({"window_ticks", "", "of the timer: above it one edge is used"}, d.window_ticks, window_ticks,
-          unset.window_ticks);
-  w.count({"grain_ticks", "", "of the timer: resolution of an edge's time"}, d.grain_ticks, grain_ticks,
+  w.ticks(
+      {"sector_rad_s_ticks", "rad/s", "this value divided by the timer ticks of a sector is the speed", true},
+      d.sector_rad_s_ticks, sector_rad_s_ticks, Base::speed);
+  w.count({"timeout_ticks", "", "timer ticks without an edge that count as standstill"}, d.timeout_ticks,
+          timeout_ticks, unset.timeout_ticks);
+  w.count({"edges", "", "Hall edges over which a speed is averaged"}, d.edges, edges, unset.edges);
+  w.count({"window_ticks", "", "timer ticks; if the edges take longer, the speed is measured over one edge"},
+          d.window_ticks, window_ticks, unset.window_ticks);
+  w.count({"grain_ticks", "", "timer ticks, resolution of an edge's time"}, d.grain_ticks, grain_ticks,
           unset.grain_ticks);
 }
 
@@ -93,9 +95,9 @@ void fields(Walk&& w, const control::AlignConfig<double>& d, Kept& kept) {
   auto& [current_A, ticks, settled_ticks, sector] = kept;
   constexpr control::AlignConfig<double> unset{};
   w.threshold({"current_A", "A"}, d.current_A, current_A, Base::current);
-  w.count({"ticks", "", "control periods at most"}, d.ticks, ticks, unset.ticks);
-  w.count({"settled_ticks", "", "control periods in place"}, d.settled_ticks, settled_ticks,
-          unset.settled_ticks);
+  w.count({"ticks", "", "longest alignment in control periods"}, d.ticks, ticks, unset.ticks);
+  w.count({"settled_ticks", "", "control periods for which the rotor must stay aligned"}, d.settled_ticks,
+          settled_ticks, unset.settled_ticks);
   w.count({"sector"}, d.sector, sector, unset.sector);
 }
 

@@ -16,8 +16,8 @@ void fields(Walk&& w, const control::ZeroCrossingConfig& d, Kept& kept) {
   w.count({"rail_counts"}, d.rail_counts, rail_counts, unset.rail_counts);
   w.count({"threshold", "", "counts of y"}, d.threshold, threshold, unset.threshold);
   w.count({"below", "", "counts of y"}, d.below, below, unset.below);
-  w.count({"margin_ticks", "", "of the timer"}, d.margin_ticks, margin_ticks, unset.margin_ticks);
-  w.count({"settle_ticks", "", "of the timer"}, d.settle_ticks, settle_ticks, unset.settle_ticks);
+  w.count({"margin_ticks", "", "timer ticks"}, d.margin_ticks, margin_ticks, unset.margin_ticks);
+  w.count({"settle_ticks", "", "timer ticks"}, d.settle_ticks, settle_ticks, unset.settle_ticks);
 }
 
 template <class Walk, class Kept>
@@ -25,9 +25,9 @@ void fields(Walk&& w, const control::CapturedCrossingConfig& d, Kept& kept) {
   auto& [follows, lag_ticks, period_ticks, settle_ticks] = kept;
   constexpr control::CapturedCrossingConfig unset{};
   w.flag({"follows"}, d.follows, follows);
-  w.count({"lag_ticks", "", "of the timer"}, d.lag_ticks, lag_ticks, unset.lag_ticks);
-  w.count({"period_ticks", "", "of the timer"}, d.period_ticks, period_ticks, unset.period_ticks);
-  w.count({"settle_ticks", "", "of the timer"}, d.settle_ticks, settle_ticks, unset.settle_ticks);
+  w.count({"lag_ticks", "", "timer ticks"}, d.lag_ticks, lag_ticks, unset.lag_ticks);
+  w.count({"period_ticks", "", "timer ticks"}, d.period_ticks, period_ticks, unset.period_ticks);
+  w.count({"settle_ticks", "", "timer ticks"}, d.settle_ticks, settle_ticks, unset.settle_ticks);
 }
 
 template <class Walk, class Kept>
@@ -36,7 +36,7 @@ void fields(Walk&& w, const control::CommutationClockConfig& d, Kept& kept) {
   constexpr control::CommutationClockConfig unset{};
   w.count({"crossings"}, d.crossings, crossings, unset.crossings);
   w.count({"advance", "", "of a sector's 65536 parts"}, d.advance, advance, unset.advance);
-  w.count({"lead_ticks", "", "of the timer"}, d.lead_ticks, lead_ticks, unset.lead_ticks);
+  w.count({"lead_ticks", "", "timer ticks"}, d.lead_ticks, lead_ticks, unset.lead_ticks);
 }
 
 template <class Walk, class Kept>
@@ -45,8 +45,8 @@ void fields(Walk&& w, const control::SpinConfig& d, Kept& kept) {
   constexpr control::SpinConfig unset{};
   w.count({"threshold", "", "counts of 3 e"}, d.threshold, threshold, unset.threshold);
   w.count({"crossings"}, d.crossings, crossings, unset.crossings);
-  w.count({"settle_ticks", "", "of the timer"}, d.settle_ticks, settle_ticks, unset.settle_ticks);
-  w.count({"listen_ticks", "", "of the timer"}, d.listen_ticks, listen_ticks, unset.listen_ticks);
+  w.count({"settle_ticks", "", "timer ticks"}, d.settle_ticks, settle_ticks, unset.settle_ticks);
+  w.count({"listen_ticks", "", "timer ticks"}, d.listen_ticks, listen_ticks, unset.listen_ticks);
 }
 
 template <class Walk, class Kept>
@@ -57,8 +57,10 @@ void fields(Walk&& w, const control::LockConfig& d, Kept& kept) {
   w.count({"window_eighths"}, d.window_eighths, window_eighths, unset.window_eighths);
   w.count({"tolerated"}, d.tolerated, tolerated, unset.tolerated);
   w.count({"unlike_samples"}, d.unlike_samples, unlike_samples, unset.unlike_samples);
-  w.count({"shortest_ticks", "", "of a sector"}, d.shortest_ticks, shortest_ticks, unset.shortest_ticks);
-  w.count({"longest_ticks", "", "of a sector"}, d.longest_ticks, longest_ticks, unset.longest_ticks);
+  w.count({"shortest_ticks", "", "timer ticks of a sector"}, d.shortest_ticks, shortest_ticks,
+          unset.shortest_ticks);
+  w.count({"longest_ticks", "", "timer ticks of a sector"}, d.longest_ticks, longest_ticks,
+          unset.longest_ticks);
   w.count({"most_flux", "", "counts of y times ticks"}, d.most_flux, most_flux, unset.most_flux);
   w.count({"threshold", "", "counts of y"}, d.threshold, threshold, unset.threshold);
   w.count({"retries"}, d.retries, retries, unset.retries);
@@ -83,16 +85,16 @@ void fields(Walk&& w, const control::StartUpConfig<double>& d, Kept& kept) {
   w.signal({"current_A", "A"}, d.current_A, current_A, Base::current);
   w.signal({"falling_A", "A"}, d.falling_A, falling_A, Base::current);
   constexpr control::StartUpConfig<double> unset{};
-  w.count({"align_ticks", "", "of the timer"}, d.align_ticks, align_ticks, unset.align_ticks);
+  w.count({"align_ticks", "", "timer ticks"}, d.align_ticks, align_ticks, unset.align_ticks);
   w.count({"swing_shift"}, d.swing_shift, swing_shift, unset.swing_shift);
   w.count({"swing_threshold", "", "counts of y"}, d.swing_threshold, swing_threshold, unset.swing_threshold);
   w.count({"first_speed", "", "2^-32 sectors per tick"}, d.first_speed, first_speed, unset.first_speed);
   w.count({"acceleration", "", "2^-32 sectors per tick^2"}, d.acceleration, acceleration, unset.acceleration);
   w.count({"jerk", "", "2^-48 sectors per tick^3"}, d.jerk, jerk, unset.jerk);
   w.count({"last_speed", "", "2^-32 sectors per tick"}, d.last_speed, last_speed, unset.last_speed);
-  w.count({"longest_ticks", "", "of the timer"}, d.longest_ticks, longest_ticks, unset.longest_ticks);
+  w.count({"longest_ticks", "", "timer ticks"}, d.longest_ticks, longest_ticks, unset.longest_ticks);
   w.count({"trusted", "", "crossings"}, d.trusted, trusted, unset.trusted);
-  w.count({"trusted_ticks", "", "of the timer"}, d.trusted_ticks, trusted_ticks, unset.trusted_ticks);
+  w.count({"trusted_ticks", "", "timer ticks"}, d.trusted_ticks, trusted_ticks, unset.trusted_ticks);
 }
 
 template <class Walk, class Kept>

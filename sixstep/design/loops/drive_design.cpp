@@ -252,7 +252,7 @@ void add_speed_step(DriveDesign& d, double crossover) {
   d.sensing.push_back(
       {"w_high", "0.9 of the speed where \"voltage left\" ends, two digits", d.high_speed_rad_s, "rad/s"});
   d.sensing.push_back(
-      {"dw_high", "one step of the measured speed at that speed", d.speed_step_rad_s, "rad/s"});
+      {"dw_high", "one step of the measured speed at this speed", d.speed_step_rad_s, "rad/s"});
   d.sensing.push_back({"d1 dw", "change of the torque reference by that step, as a part of the torque limit",
                        d.speed_step_part, ""});
   d.sensing.push_back({"du", "change of the voltage: d1 dw times T_max/K_t times the current loop's d1",

@@ -61,11 +61,13 @@ base::Problems injected(const FieldMachine& m, double saturation_A, const FieldE
   const std::uint32_t settle = ticks_of(10 / s.loop_rad_s, s.period_s);
   c.north = {part * saturation_A, part / 3,
              static_cast<std::uint16_t>(std::min<std::uint32_t>(settle + 8, 10000)), 64};
-  out.steps.insert(out.steps.end(),
-                   {{"V", "injected along the axis", V, "V"},
-                    {"V T/L_d", "change of the current by V", V * s.period_s / m.L_d_H, "A"},
-                    {"I_n", "current along the axis and against it, to find north", c.north.current_A, "A"},
-                    {"I_n/I_sat", "relative change of the response at this current", part, ""}});
+  out.steps.insert(
+      out.steps.end(),
+      {{"V", "injected along the axis", V, "V"},
+       {"V T/L_d", "change of the current by V", V * s.period_s / m.L_d_H, "A"},
+       {"I_n", "current along the axis, first in one direction, then in the other, to find north",
+        c.north.current_A, "A"},
+       {"I_n/I_sat", "relative change of the response at this current", part, ""}});
   return {};
 }
 
@@ -85,7 +87,7 @@ void observed(const FieldMachine& m, const FieldEstimateSpec& s, FieldEstimate& 
             m.magnet_V_s / m.pole_pairs,
             1 - base::exp(-pull_rad_s(m, c) * s.period_s)};
   out.steps.insert(out.steps.end(),
-                   {{"w_high", "speed from which the flux alone gives the angle", c.high_rad_s, "rad/s"},
+                   {{"w_high", "speed above which only the flux determines the angle", c.high_rad_s, "rad/s"},
                     {"w_g", "rate at which an integral's offset decays", pull_rad_s(m, c), "rad/s"}});
 }
 
@@ -103,7 +105,7 @@ void turned(const FieldMachine& m, const FieldEstimateSpec& s, FieldEstimate& ou
              ticks_of(10 / pull_rad_s(m, c), s.period_s)};
   out.steps.insert(
       out.steps.end(),
-      {{"I", "current that aligns the rotor and then turns it", I, "A"},
+      {{"I", "current that aligns the rotor and then turns the rotor", I, "A"},
        {"t_align", "time until the rotor is at rest", align_s, "s"},
        {"t_ramp", "time until the flux estimate follows", c.high_rad_s / rad_s2, "s"},
        {"T_start", "greatest load against which the drive starts", start_load_part * most_Nm, "N m"}});

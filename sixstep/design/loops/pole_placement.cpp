@@ -42,7 +42,7 @@ std::vector<DerivationStep> derivation(const PolePlacement& p, double z_sum, dou
   const auto [a0, b0] = p.plant;
   const auto [d1, d0] = p.gains;
   return {
-      {"T_reg", "settling time wanted, of the poles alone, to 1 %", p.settle_s, "s"},
+      {"T_reg", "requested settling time to 1 %, of the poles without the zero", p.settle_s, "s"},
       {"xi", "damping wanted", p.damping, ""},
       {"T_s", "control period", p.period_s, "s"},
       {"w0", "4.6 / (xi T_reg)", p.w0_rad_s, "rad/s"},
@@ -52,7 +52,7 @@ std::vector<DerivationStep> derivation(const PolePlacement& p, double z_sum, dou
       {"Im z", "exp(Re s T_s) sin(Im s T_s), the pair is Re z +- j Im z", p.z_im, ""},
       {"a0", "plant with zero-order hold b0 / (z + a0)", a0, ""},
       {"b0", "plant with zero-order hold b0 / (z + a0)", b0, ""},
-      {"c1", "-2 Re z, wanted polynomial z^2 + c1 z + c0", z_sum, ""},
+      {"c1", "-2 Re z, requested polynomial z^2 + c1 z + c0", z_sum, ""},
       {"c0", "(Re z)^2 + (Im z)^2", z_product, ""},
       {"d1", "(c1 - a0 + 1) / b0, from c1 = b0 d1 + a0 - 1", d1, ""},
       {"d0", "(c0 + a0) / b0, from c0 = b0 d0 - a0", d0, ""},

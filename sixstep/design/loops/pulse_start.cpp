@@ -140,7 +140,7 @@ base::Problem too_strong(const Basis& b, const PulseStart& s) {
   const std::string makes = "makes pulses of " + base::rounded(s.greatest_A, 3) + " A";
   if (s.greatest_A <= b.limit_A)
     return {"period_s", base::rounded(spec.period_s, 4),
-            "makes the pulses too long: they turn the rotor by " + base::rounded(s.turned_deg, 3) +
+            "makes the pulses too long: the pulses turn the rotor by " + base::rounded(s.turned_deg, 3) +
                 " electrical degrees, or last longer than 2 L/R",
             "shorten period_s, or set starts_by = alignment"};
   if (b.limit_A == spec.most_A)

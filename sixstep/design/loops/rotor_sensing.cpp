@@ -114,8 +114,7 @@ std::vector<DerivationStep> lag_steps(const RotorSensing& sensing, double pole_p
   if (sensing.edges == 0)
     steps.push_back(
         {"T_6",
-         "(pi/8)(12/7)/w_c: six edges within this time cost at most pi/8 of phase, and the speed is "
-         "averaged over six edges; else over one edge",
+         "(pi/8)(12/7)/w_c: if six edges take at most this time, they cost at most pi/8 of phase, and the speed is averaged over six edges; else over one edge",
          hall_window_s(crossover_rad_s), "s"});
   else
     steps.push_back(

@@ -29,7 +29,7 @@ void add_encoder(const ShaftSensing& s, double speed, std::vector<DerivationStep
 
 void add_absolute(const ShaftSensing& s, double speed, std::vector<DerivationStep>& steps) {
   steps.push_back({"T", "k T_s, averaging time of a speed", speed_age(s, speed).mean_s, "s"});
-  steps.push_back({"t_l", "age of the latched code when it is read", s.latency_s, "s"});
+  steps.push_back({"t_l", "age of the latched code at the sample", s.latency_s, "s"});
   steps.push_back({"dw", "(2 pi/2^n)/(k T_s), a count", speed_jitter_rad_s(s, speed), "rad/s"});
   steps.push_back({"w_min", "as dw: slower speeds sometimes read as 0", lowest_told_rad_s(s), "rad/s"});
 }

@@ -64,7 +64,7 @@ base::Problems check_spec(const MotorModel& motor, const DesignSpec& w) {
                                                                   *w.lowest_speed_rad_s > most)
     found.push_back(
         {"lowest_speed_rad_s", base::written(*w.lowest_speed_rad_s),
-         "is too high for the test, a step down to it from 1.2 times this speed: on this bus at most " +
+         "is too high for the test, a step from 1.2 times this speed down to this speed; this bus allows at most " +
              base::three_digits(most) + " rad/s",
          "lower this value, or give a higher voltage_V"});
   if (w.rotor.edges < 0 || w.rotor.edges > 6)

@@ -25,7 +25,7 @@ struct Idle {
 };
 
 constexpr const char* with_speed = "add mode = speed or mode = position, or leave this option out";
-constexpr const char* one_of_two = "keep one of the two";
+constexpr const char* one_of_two = "leave one of the two options out";
 
 /// Reasons why a member of a spec has no effect. If several rows of a member apply, the first is reported.
 constexpr Idle idles[] = {

@@ -69,7 +69,7 @@ base::Result<SpeedLawDesign> state_feedback(const SpeedLawSpec& s) {
   if (!(d.pole < c.a))
     return base::Problem{
         "settle_s", written(s.settle_s),
-        "is longer than the settling time by friction alone, " +
+        "is longer than the settling time that friction causes without a controller, " +
             base::rounded(time_constants_to_settle / s.fades_1_s, 4) + " s",
         "give a shorter settling time, or use disturbance-rejection, whose model has no friction"};
   if (!(c.c < c.a))

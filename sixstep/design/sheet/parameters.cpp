@@ -63,20 +63,20 @@ void check_pace(SheetReader& reader, const MotorModel& m) {
         sheet.inductance_mH ? sheet.inductance_mH : sheet.d_axis_inductance_mH;
     const char* key = sheet.inductance_mH ? "inductance_mH" : "d_axis_inductance_mH";
     const std::string bound = winding > fastest_winding_rad_s
-                                  ? rounded(1e9 / winding, 3) + " ns, and no motor is below 1000 ns"
-                                  : rounded(1 / winding, 3) + " s, and no motor is above 100 s";
+                                  ? rounded(1e9 / winding, 3) + " ns, and no motor has less than 1000 ns"
+                                  : rounded(1 / winding, 3) + " s, and no motor has more than 100 s";
     reader.problem(q ? SheetReader::key_of(key, *q) : key, q ? reader.value_of(key, *q) : "",
-                   "makes the winding's time constant L/R " + bound,
-                   "check the unit of inductance and resistance");
+                   "gives the winding a time constant L/R of " + bound,
+                   "correct the unit of inductance or resistance");
   } else if (swing > fastest_swing_rad_s) {
     const std::optional<base::Quantity>& q =
         sheet.with_brake ? sheet.inertia_with_brake_gcm2 : sheet.inertia_gcm2;
     reader.problem(
         m.from.J.substr(0, m.from.J.find(',')),
         q ? reader.value_of(sheet.with_brake ? "inertia_with_brake_gcm2" : "inertia_gcm2", *q) : "",
-        "makes rotor and winding swing at K_t/sqrt(L J) = " + rounded(swing, 3) +
-            " rad/s, and no motor is above 1e5",
-        "check the unit of the inertia, then the units of inductance and torque constant");
+        "lets rotor and winding oscillate at K_t/sqrt(L J) = " + rounded(swing, 3) +
+            " rad/s, and no motor has more than 1e5 rad/s",
+        "correct the unit of the inertia, of the inductance or of the torque constant");
   }
 }
 

@@ -69,7 +69,7 @@ bool are_points(SheetReader& reader) {
   const std::vector<double>&angle = reader.sheet.back_emf_angle_deg, &value = reader.sheet.back_emf_shape;
   if (angle.size() != value.size())
     reader.problem("back_emf_shape", std::to_string(value.size()) + " values",
-                   "needs one for each of the " + std::to_string(angle.size()) + " back_emf_angle_deg",
+                   "needs one value for each of the " + std::to_string(angle.size()) + " back_emf_angle_deg",
                    "write back_emf_angle_deg = [0, 120, 180, 300] and back_emf_shape = [1, 1, -1, -1]");
   else if (angle.empty() && !reader.sheet.back_emf_file.empty())
     reader.problem("back_emf_file", "\"" + reader.sheet.back_emf_file + "\"", "has not been read",

@@ -28,9 +28,10 @@ constexpr Reason reasons[] = {
     {"second_no_load_voltage_V", "the voltage of the second no-load point"},
     {"nominal_speed_rpm", "a rating, for the winding temperature that the maker chose"},
     {"nominal_torque_mNm",
-     "a rating; makers disagree whether friction is subtracted, so K_t is not read from it"},
+     "a rating; makers disagree whether friction is subtracted, so K_t is not computed from the nominal torque"},
     {"nominal_current_A", "a rating"},
-    {"stall_torque_mNm", "not a parameter of the motor: the relations compare it with the other values"},
+    {"stall_torque_mNm",
+     "not a parameter of the motor: the relations compare this value with the other values"},
     {"stall_current_A", "follows from U / R"},
     {"max_efficiency_percent", "follows from the other lines"},
     {"speed_torque_gradient_rpm_mNm", "follows from R and K_t"},
@@ -44,13 +45,13 @@ constexpr Reason reasons[] = {
     {"inertia_gcm2", "the motor carries its brake: inertia_with_brake_gcm2 is used"},
     {"inertia_with_brake_gcm2", "the motor carries no brake: inertia_gcm2 is used"},
     {"thermal_resistance_winding_housing_K_W",
-     "used by [heat] and the thermal curve only; else the motor stays at the sheet's temperature"},
+     "used only by [heat] and the thermal curve; without them the motor stays at the sheet's temperature"},
     {"thermal_resistance_housing_ambient_K_W",
-     "used by [heat] and the thermal curve only; else the motor stays at the sheet's temperature"},
+     "used only by [heat] and the thermal curve; without them the motor stays at the sheet's temperature"},
     {"thermal_time_constant_winding_s",
-     "used by [heat] and the thermal curve only; else the motor stays at the sheet's temperature"},
+     "used only by [heat] and the thermal curve; without them the motor stays at the sheet's temperature"},
     {"thermal_time_constant_motor_s",
-     "used by [heat] and the thermal curve only; else the motor stays at the sheet's temperature"},
+     "used only by [heat] and the thermal curve; without them the motor stays at the sheet's temperature"},
     {"max_winding_temperature_degC", "a limit"},
 };
 
@@ -127,10 +128,10 @@ void judge_known(const Sheet& sheet, SheetCheck& check, base::Problems& problems
   }
 }
 
-/// The limit as text: "makes R J/K_t^2 440 s, and almost no motor is above 100 s".
+/// The limit as text: "gives the rotor a time constant R J/K_t^2 of 440 s, and almost no motor has more than 100 s".
 std::string slow_words(const char* what, double seconds, double usual_s) {
-  return std::string("makes ") + what + " " + rounded(seconds, 3) + " s, and almost no motor is above " +
-         rounded(usual_s, 3) + " s";
+  return std::string("gives ") + what + " of " + rounded(seconds, 3) +
+         " s, and almost no motor has more than " + rounded(usual_s, 3) + " s";
 }
 
 /// Reports values with which a motor is too slow, probably because of a wrong unit. They can be simulated,
@@ -149,8 +150,8 @@ void doubt_pace(const Sheet& sheet, SheetCheck& check) {
     const bool axes = !sheet.inductance_mH && sheet.d_axis_inductance_mH;
     doubt(axes ? "d_axis_inductance_mH" : "inductance_mH",
           axes ? sheet.d_axis_inductance_mH : sheet.inductance_mH,
-          slow_words("the winding's time constant L/R", *winding, slowest_usual_winding_s),
-          "check the unit of inductance and resistance");
+          slow_words("the winding a time constant L/R", *winding, slowest_usual_winding_s),
+          "correct the unit of inductance or resistance");
   }
   if (rotor && *rotor > slowest_usual_rotor_s) {
     const bool braked = sheet.with_brake && sheet.inertia_with_brake_gcm2;
@@ -159,12 +160,13 @@ void doubt_pace(const Sheet& sheet, SheetCheck& check) {
     const bool linear = sheet.kind == MotorKind::linear;
     if (q)
       doubt(braked ? "inertia_with_brake_gcm2" : "inertia_gcm2", q,
-            slow_words(linear ? "R m/K_f^2" : "R J/K_t^2", *rotor, slowest_usual_rotor_s),
-            linear ? "check the unit of the mass, then the units of force constant and resistance"
-                   : "check the unit of the inertia, then the units of torque constant and resistance");
+            slow_words(linear ? "the slide a time constant R m/K_f^2" : "the rotor a time constant R J/K_t^2",
+                       *rotor, slowest_usual_rotor_s),
+            linear ? "correct the unit of the mass, of the force constant or of the resistance"
+                   : "correct the unit of the inertia, of the torque constant or of the resistance");
     else
-      doubt(from, {}, slow_words("R J/K_t^2", *rotor, slowest_usual_rotor_s),
-            "check the units of the rotor's dimensions, then the units of torque constant and resistance");
+      doubt(from, {}, slow_words("the rotor a time constant R J/K_t^2", *rotor, slowest_usual_rotor_s),
+            "correct the units of the rotor's dimensions, of the torque constant or of the resistance");
   }
 }
 

@@ -59,7 +59,7 @@ void read_resistance(SheetReader& reader) {
     const double per_terminal = *reader.out.nominal_voltage_V / *R;
     hint = "; the printed stall current, " + rounded(stall.value) + " A, " +
            fitting_frame({per_terminal, per_terminal / 2.0}, *q, stall);
-    if (fits(2.0 * per_terminal, *q, stall)) hint += ": it is U divided by half of the resistance";
+    if (fits(2.0 * per_terminal, *q, stall)) hint += ", which is U divided by half of the resistance";
   }
   const std::array<FrameMeaning, 2> candidates = {{{"terminal", means(*R / 2.0)}, {"phase", means(*R)}}};
   unknown_frame(reader, "resistance_ohm", *q, candidates, hint);

@@ -29,8 +29,8 @@ void describe_torque_constant(base::Visitor& v, Sheet& s) {
               .also = spellings::torque_constant});
   v.quantity(
       "back_emf_mV_s", s.back_emf_mV_s,
-      {.meaning = "peak of one phase's back-EMF per mechanical rad/s, instead of the torque constant; with "
-                  "a table, the factor of its values",
+      {.meaning =
+           "peak of one phase's back-EMF per mechanical rad/s, instead of the torque constant; with back_emf = \"table\", the factor of the table's values",
        .unit = "mV s",
        .frame = "phase",
        .range = base::above(0)});
@@ -49,13 +49,14 @@ void describe_torque_constant(base::Visitor& v, Sheet& s) {
        .frame = "line-peak|line-rms|phase-peak|phase-rms|six-step",
        .range = base::above(0),
        .also = spellings::back_emf_per_speed});
-  v.quantity("flux_linkage_mWb", s.flux_linkage_mWb,
-             {.meaning = "flux of the magnets through one phase, peak of its fundamental, as a drive's "
-                         "set-up identifies it",
-              .unit = "mWb",
-              .frame = "phase",
-              .range = base::above(0),
-              .also = spellings::flux_linkage});
+  v.quantity(
+      "flux_linkage_mWb", s.flux_linkage_mWb,
+      {.meaning =
+           "flux linkage of the magnets with one phase, peak of the fundamental, as a drive's set-up identifies",
+       .unit = "mWb",
+       .frame = "phase",
+       .range = base::above(0),
+       .also = spellings::flux_linkage});
   v.quantity("speed_constant_rpm_V", s.speed_constant_rpm_V,
              {.meaning = "speed per volt, KV: of the mean voltage in six-step operation, or of the peak "
                          "between two terminals",
@@ -144,7 +145,7 @@ void describe_no_load(base::Visitor& v, Sheet& s) {
               .range = base::above(0),
               .also = spellings::no_load_voltage});
   v.quantity("no_load_speed_rpm", s.no_load_speed_rpm,
-             {.meaning = "speed without load, at no_load_voltage_V or else at the nominal voltage",
+             {.meaning = "speed without load at no_load_voltage_V, which is by default the nominal voltage",
               .unit = "rpm",
               .range = base::above(0),
               .also = spellings::no_load_speed});

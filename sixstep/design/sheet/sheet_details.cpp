@@ -21,7 +21,7 @@ void read_harmonics(SheetReader& reader) {
   if (s.harmonic_orders.size() != s.harmonic_sizes.size())
     reader.problem(
         "harmonic_sizes", std::to_string(s.harmonic_sizes.size()) + " values",
-        "needs one for each of the " + std::to_string(s.harmonic_orders.size()) + " harmonic_orders",
+        "needs one value for each of the " + std::to_string(s.harmonic_orders.size()) + " harmonic_orders",
         "write harmonic_orders = [3, 5] and harmonic_sizes = [0.12, -0.05]");
   if (s.harmonic_orders.empty()) return;
   if (s.back_emf != BackEmfShape::sine)
@@ -35,7 +35,7 @@ void read_harmonics(SheetReader& reader) {
   for (const double order : s.harmonic_orders)
     if (!is_whole(order) || std::fmod(order, 2.0) != 1.0 || order < 3 || order > highest_order) {
       reader.problem("harmonic_orders", base::written(order), "must be an odd number from 3 to 23",
-                     "give odd orders from 3 to 23; equal north and south poles cause no even ones");
+                     "give odd orders from 3 to 23; equal north and south poles cause no even orders");
       return;
     }
 }
@@ -57,7 +57,7 @@ void read_deviations(SheetReader& reader) {
     if (values.empty()) return;
     if (values.size() != 3)
       reader.problem(key, std::to_string(values.size()) + " values",
-                     "needs one for each of the phases a, b, c",
+                     "needs one value for each of the phases a, b, c",
                      std::string("write ") + key + " = [0.05, -0.03, 0]");
     if (s.connection == WindingConnection::delta)
       reader.problem(key, "", "applies to a star's phases only, and connection is \"delta\"",
@@ -101,11 +101,11 @@ void read_cogging(SheetReader& reader, std::optional<int> pole_pairs) {
   const std::string count = std::to_string(s.cogging_orders.size());
   if (s.cogging_mNm.size() != s.cogging_orders.size())
     reader.problem("cogging_mNm", std::to_string(s.cogging_mNm.size()) + " values",
-                   "needs one for each of the " + count + " cogging_orders",
+                   "needs one value for each of the " + count + " cogging_orders",
                    "write cogging_orders = [48] and cogging_mNm = [8]");
   if (!s.cogging_phase_deg.empty() && s.cogging_phase_deg.size() != s.cogging_orders.size())
     reader.problem("cogging_phase_deg", std::to_string(s.cogging_phase_deg.size()) + " values",
-                   "needs one for each of the " + count + " cogging_orders",
+                   "needs one value for each of the " + count + " cogging_orders",
                    "give one phase for each order, or remove this key: the default is 0");
   if (s.cogging_orders.size() > most_cogging)
     reader.problem("cogging_orders", count + " values", "must be at most " + std::to_string(most_cogging),
@@ -120,7 +120,7 @@ void read_cogging(SheetReader& reader, std::optional<int> pole_pairs) {
       reader.problem("cogging_orders", base::written(order),
                      "must be a multiple of the number of poles" +
                          (pole_pairs ? ", " + std::to_string(2 * *pole_pairs) : std::string()),
-                     "give the least common multiple of slots and poles, or a multiple of it");
+                     "give the least common multiple of slots and poles, or a multiple of this number");
       return;
     }
 }

@@ -75,9 +75,10 @@ void check_iron(SheetReader& reader) {
   const Friction& f = reader.out.friction;
   const auto beyond = [&](const char* key, double part, double sum, const char* unit) {
     if (part <= sum * (1 + 1e-12)) return;
-    reader.problem(key, base::written(part),
-                   "exceeds the friction that the no-load points leave for it, " + rounded(sum) + " " + unit,
-                   "lower this value, or give viscous_friction_Nm_s of the bearings");
+    reader.problem(
+        key, base::written(part),
+        "exceeds the friction that the no-load points leave for the iron, " + rounded(sum) + " " + unit,
+        "lower this value, or give viscous_friction_Nm_s of the bearings");
   };
   beyond("iron_coulomb_mNm", f.iron.coulomb_Nm * 1e3, f.coulomb_Nm * 1e3, "mNm");
   beyond("iron_viscous_Nm_s", f.iron.B_Nm_s, f.B_Nm_s, "Nm s");

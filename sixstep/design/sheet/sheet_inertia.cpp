@@ -33,7 +33,7 @@ bool has_body(SheetReader& reader) {
   const Sheet& s = reader.sheet;
   const auto needs = [&](const char* key, const char* other) {
     reader.problem(key, "", std::string("needs ") + other + " beside it",
-                   "give all values of J = pi/2 rho l (r^4 - r_i^4), or inertia_gcm2 alone");
+                   "give all values of J = pi/2 rho l (r^4 - r_i^4), or only inertia_gcm2");
     return false;
   };
   if (!s.rotor_radius_mm && !s.rotor_length_mm) {

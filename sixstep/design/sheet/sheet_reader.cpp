@@ -23,7 +23,7 @@ class Numbers final : public base::Visitor {
     const base::Range allowed = base::allowed(about);
     if (allowed.holds(q->value)) return;
     reader_.wrong(key, *q, limit_of(about.range, allowed, q->value),
-                  "give the value as the sheet prints it, or leave the key out");
+                  "give the value that the sheet prints, or remove this key");
   }
 
   SheetReader& reader_;

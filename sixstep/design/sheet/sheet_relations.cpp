@@ -137,8 +137,8 @@ class Relations {
                              !s_.coulomb_friction_mNm;
       if (lacks_dry)
         r.remark = s_.kind == MotorKind::linear
-                       ? "dry friction F_c is not given: it would add to the left side"
-                       : "dry friction T_c is not given: it would add to the left side";
+                       ? "Coulomb friction F_c is not given; F_c would increase the left side"
+                       : "Coulomb friction T_c is not given; T_c would increase the left side";
       if (r.remark.empty()) r.remark = n.remark;
     }
   }
@@ -195,7 +195,7 @@ class Relations {
     const double part =
         commutation_part(c_, (torque_Nm / K_t_->value + (idle_ ? idle_->value : 0.0)) / edge_current);
     if (!(part > worth_it)) return "";
-    return "the computed speed is that of the ideal line: in the model commutation lowers the speed by about " +
+    return "the computed speed is on the ideal line: in the model commutation lowers the speed by about " +
            rounded(100.0 * part / (1.0 + part), 2) +
            " %; the torque-speed curve has the speed that the model reaches";
   }

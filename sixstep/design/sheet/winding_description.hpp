@@ -81,14 +81,13 @@ inline void describe_winding(base::Visitor& v, Sheet& s) {
            .range = {0, 360, true, false}});
   v.value(
       "back_emf_shape", s.back_emf_shape,
-      {.meaning = "table: phase a's back-EMF at these angles, without normalization; the back-EMF constant "
-                  "multiplies it. Its mean over the turn must be zero",
+      {.meaning =
+           "table: phase a's back-EMF at these angles, without normalization; the back-EMF constant multiplies these values. Their mean over the turn must be zero",
        .range = base::between(-1e6, 1e6)});
   v.value(
       "back_emf_file", s.back_emf_file,
       {.meaning =
-           "table: a file beside this one with a line of headings and rows of angle and value, instead of the "
-           "two lists"});
+           "table: a CSV file with a line of headings and rows of angle and value, instead of the two lists; its path is relative to this file"});
   v.choice("connection", s.connection, connection_choices, {.meaning = "connection of the three phases"});
   v.value("mutual_inductance_mH", s.mutual_inductance_mH,
           {.meaning = "delta: mutual inductance of two branches, negative as a rule",
@@ -130,24 +129,28 @@ inline void describe_winding(base::Visitor& v, Sheet& s) {
               .frame = "terminal|phase",
               .range = base::above(0),
               .also = spellings::inductance});
-  v.quantity("d_axis_inductance_mH", s.d_axis_inductance_mH,
-             {.meaning = "inductance of one phase along the magnets, L_d; with q_axis_inductance_mH instead "
-                         "of inductance_mH",
-              .unit = "mH",
-              .frame = "phase",
-              .range = base::above(0),
-              .also = spellings::d_axis_inductance});
-  v.quantity("q_axis_inductance_mH", s.q_axis_inductance_mH,
-             {.meaning = "inductance of one phase across the magnets, L_q",
-              .unit = "mH",
-              .frame = "phase",
-              .range = base::above(0),
-              .also = spellings::q_axis_inductance});
-  v.quantity("saturation_current_A", s.saturation_current_A,
-             {.meaning = "I_sat of lambda_d = L_d i_d (1 - i_d/(2 I_sat)), i_d along the magnets. Pulses "
-                         "distinguish north from south by it; valid for |i_d| < I_sat/2",
-              .unit = "A",
-              .range = base::above(0)});
+  v.quantity(
+      "d_axis_inductance_mH", s.d_axis_inductance_mH,
+      {.meaning =
+           "inductance of one phase along the magnets, L_d; together with q_axis_inductance_mH it replaces inductance_mH",
+       .unit = "mH",
+       .frame = "phase",
+       .range = base::above(0),
+       .also = spellings::d_axis_inductance});
+  v.quantity(
+      "q_axis_inductance_mH", s.q_axis_inductance_mH,
+      {.meaning =
+           "inductance of one phase across the magnets, L_q; together with d_axis_inductance_mH it replaces inductance_mH",
+       .unit = "mH",
+       .frame = "phase",
+       .range = base::above(0),
+       .also = spellings::q_axis_inductance});
+  v.quantity(
+      "saturation_current_A", s.saturation_current_A,
+      {.meaning =
+           "I_sat of lambda_d = L_d i_d (1 - i_d/(2 I_sat)), i_d along the magnets. The drive's pulses distinguish north from south by this saturation; valid for |i_d| < I_sat/2",
+       .unit = "A",
+       .range = base::above(0)});
 }
 
 }  // namespace sixstep::design

@@ -21,7 +21,7 @@ void check_energies(const Bridge& b, base::Problems& out) {
         {energies ? "bridge.energies_at_V" : "bridge.turn_on_J", "",
          energies
              ? "and bridge.energies_at_A are missing: the switching energies belong to a voltage and a current"
-             : "is missing: without it energies_at_V and energies_at_A have no effect",
+             : "is missing: without turn_on_J, energies_at_V and energies_at_A have no effect",
          "give turn_on_J, turn_off_J, recovery_J, energies_at_V and energies_at_A"});
   if (energies && point && !(b.turn_on_J > 0 && b.turn_off_J > 0))
     out.push_back({b.turn_on_J > 0 ? "bridge.turn_off_J" : "bridge.turn_on_J", "",

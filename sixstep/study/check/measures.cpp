@@ -93,7 +93,7 @@ void check_signal(const Asked& a) {
       return;
     case TakenOf::power:
       if (!is_power(signal))
-        a.refuse("signal", quoted(signal), "is not a power, so that it has no energy",
+        a.refuse("signal", quoted(signal), "is not a power, so energy_J cannot be computed",
                  "name a power or a loss, as signal = \"supply_power_W\" or \"copper_loss_W\"");
       return;
   }
@@ -166,8 +166,7 @@ void check_levels_of_reference(const Asked& a) {
     a.refuse(
         "metric", quoted(a.m.metric),
         "needs constant levels of the reference, and the reference moves in this window",
-        "give level, start and from_s, or set from_s and to_s to a constant part of the reference; or take "
-        "max and min of the error, as signal = \"speed_error_rad_s\"");
+        "give level, start and from_s, or set from_s and to_s to a constant part of the reference; or use the metrics max and min of the error, for example of signal = \"speed_error_rad_s\"");
   if (takes_levels && !a.m.level && changes_mode(a.s))
     a.refuse("level", "",
              "is missing: the mode changes during the run, so that the reference changes its quantity",

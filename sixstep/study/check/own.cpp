@@ -104,10 +104,10 @@ base::Problems check_controller(const sixstep_controller& is) {
   if (is.interface == in_float)
     return {{"interface", std::to_string(is.interface),
              "is compiled for float, and this program needs double",
-             "compile it without -DSIXSTEP_REAL=float"}};
+             "compile the controller without -DSIXSTEP_REAL=float"}};
   refuse(is.interface != SIXSTEP_OWN_INTERFACE, "interface", std::to_string(is.interface),
          ("is not " + std::to_string(SIXSTEP_OWN_INTERFACE) +
-          ", the interface of this program: compile it with this program's own_controller.h")
+          ", the interface of this program: compile the controller with this program's own_controller.h")
              .c_str());
   if (!out.empty()) return out;
   refuse(is.answers != SIXSTEP_ANSWERS_PAIR && is.answers != SIXSTEP_ANSWERS_LEGS, "answers",

@@ -18,7 +18,7 @@ using plant::fastest_field_rad_s;
 
 /// Returns, for example, "3.2 ns, and on no board it is below 100 ns".
 std::string too_short(double rate_1_s) {
-  return base::three_digits(1e9 / rate_1_s) + " ns, and no board is below " +
+  return base::three_digits(1e9 / rate_1_s) + " ns, and no board has less than " +
          base::three_digits(1e9 / fastest_answer_1_s) + " ns";
 }
 
@@ -29,8 +29,8 @@ void check_bridge(const Scenario& s, const plant::Machine& m, base::Problems& ou
   const bool diode = b.diode_resistance_ohm > b.on_resistance_ohm;
   out.push_back({diode ? "bridge.diode_resistance_ohm" : "bridge.on_resistance_ohm",
                  written(diode ? b.diode_resistance_ohm : b.on_resistance_ohm),
-                 "makes the time constant of winding and bridge " + too_short(rate),
-                 "check the unit of this value: a MOSFET has milliohms"});
+                 "gives winding and bridge a time constant of " + too_short(rate),
+                 "correct the unit of this value: a MOSFET has milliohms"});
 }
 
 void check_bus(const Scenario& s, const plant::Machine& m, base::Problems& out) {
@@ -42,9 +42,9 @@ void check_bus(const Scenario& s, const plant::Machine& m, base::Problems& out) 
   if (rate > fastest_answer_1_s)
     out.push_back(
         {"supply.capacitance_F", written(from.capacitance_F),
-         "makes the bus's time constant with supply.resistance_ohm = " + written(from.resistance_ohm) +
-             " and the winding " + too_short(rate),
-         "check the unit of this value: a bus has hundreds of microfarads; for a stiff bus remove resistance and capacitance"});
+         "gives the bus, with supply.resistance_ohm = " + written(from.resistance_ohm) +
+             " and the winding, a time constant of " + too_short(rate),
+         "correct the unit of this value: a bus has hundreds of microfarads; for a stiff bus remove resistance and capacitance"});
 }
 
 void check_friction(const Scenario& s, const design::MotorModel& motor, base::Problems& out) {
@@ -55,7 +55,7 @@ void check_friction(const Scenario& s, const design::MotorModel& motor, base::Pr
   if (rate > fastest_answer_1_s)
     out.push_back({"load.viscous_Nm_s", written(s.load.viscous_Nm_s),
                    "stops the rotor within " + too_short(rate),
-                   "check the unit of this value, or set load.locked = true to hold the rotor"});
+                   "correct the unit of this value, or set load.locked = true to hold the rotor"});
 }
 
 /// Time constant of a battery's recovery: the recovery capacitor C_1 discharges through its resistor R_1, and
@@ -66,9 +66,9 @@ void check_recovery(const Supply& from, base::Problems& out) {
   const double rate = (1 / from.battery_recovery_ohm + 1 / from.resistance_ohm) / from.battery_recovery_F;
   if (rate > fastest_answer_1_s)
     out.push_back({"supply.battery_recovery_F", written(from.battery_recovery_F),
-                   "makes the battery's time constant with supply.battery_recovery_ohm = " +
-                       written(from.battery_recovery_ohm) + " " + too_short(rate),
-                   "check the unit of this value: a cell recovers over milliseconds to minutes"});
+                   "gives the battery's recovery, with supply.battery_recovery_ohm = " +
+                       written(from.battery_recovery_ohm) + ", a time constant of " + too_short(rate),
+                   "correct the unit of this value: a cell recovers over milliseconds to minutes"});
 }
 
 /// Checks the time constants of the source's inductance, of the bus capacitor and of the brake resistor.
@@ -78,21 +78,21 @@ void check_source(const Scenario& s, const plant::Machine& m, base::Problems& ou
   const double L = std::min(2 * m.L_H, from.inductance_H > 0 ? from.inductance_H : 2 * m.L_H);
   if (const double rate = from.capacitor_resistance_ohm / L; rate > fastest_answer_1_s)
     out.push_back({"supply.capacitor_resistance_ohm", written(from.capacitor_resistance_ohm),
-                   "makes the time constant with the source and winding inductances " + too_short(rate),
-                   "check the unit of this value: a bus capacitor has milliohms"});
+                   "gives, with the inductances of source and winding, a time constant of " + too_short(rate),
+                   "correct the unit of this value: a bus capacitor has milliohms"});
   if (from.inductance_H > 0) {
     const double rate =
         from.resistance_ohm / from.inductance_H + 1 / std::sqrt(from.inductance_H * from.capacitance_F);
     if (rate > fastest_answer_1_s)
       out.push_back({"supply.inductance_H", written(from.inductance_H),
-                     "makes the source's time constant " + too_short(rate),
-                     "check the unit of this value: a cable has microhenries; or remove this key"});
+                     "gives the source a time constant of " + too_short(rate),
+                     "correct the unit of this value: a cable has microhenries; or remove this key"});
   }
   if (from.brake_resistance_ohm > 0) {
     const double rate = 1 / (from.brake_resistance_ohm * from.capacitance_F);
     if (rate > fastest_answer_1_s)
       out.push_back({"supply.brake_resistance_ohm", written(from.brake_resistance_ohm),
-                     "empties the bus within " + too_short(rate), "check the unit of this value"});
+                     "empties the bus within " + too_short(rate), "correct the unit of this value"});
   }
 }
 
@@ -102,8 +102,8 @@ void check_coupling(const Scenario& s, const design::MotorModel& motor, base::Pr
   const double square = l.gear * l.gear, J_1 = motor.shaft.J_kg_m2 * square, J_2 = l.inertia_kg_m2;
   const auto look = [&](const char* key, double value, double rate) {
     if (rate > fastest_answer_1_s)
-      out.push_back({key, written(value), "makes the shaft's time constant " + too_short(rate),
-                     "check the unit of this value, and the units of load.gear and the inertias"});
+      out.push_back({key, written(value), "gives the shaft a time constant of " + too_short(rate),
+                     "correct the unit of this value, of load.gear or of the inertias"});
   };
   const bool elastic = l.stiffness_Nm_rad > 0 && J_2 > 0;
   if (elastic) {
@@ -146,7 +146,7 @@ void check_field_pace(const Scenario& s, const plant::Machine& m, base::Problems
   const auto look = [&](const std::string& key, double value, double field_rad_s, const char* cure) {
     if (std::fabs(field_rad_s) > fastest_field_rad_s)
       out.push_back({key, written(value),
-                     "makes the field turn at " + base::three_digits(std::fabs(field_rad_s)) +
+                     "turns the field at " + base::three_digits(std::fabs(field_rad_s)) +
                          " electrical rad/s, and no motor reaches more than " +
                          base::three_digits(fastest_field_rad_s),
                      cure});

@@ -43,7 +43,7 @@ void check_registers(const Scenario& s, base::Problems& out) {
   if (s.sensors.currents == rig::CurrentMeasurement::dc_link && s.pwm.delay_periods > 0)
     out.push_back(
         {"pwm.delay_periods", std::to_string(s.pwm.delay_periods),
-         "makes the duty belong to another period than the shunt sample",
+         "assigns the duty to another period than the shunt sample",
          "set delay_periods = 0: with pwm.sample = \"middle\" the answer acts at the next period's start"});
 }
 
@@ -130,7 +130,7 @@ void check_hall_filter(const Scenario& s, const design::MotorModel& motor, base:
       {"sensors.hall_stable_samples", std::to_string(s.sensors.hall_stable_samples),
        "last longer than a sector, " + sector + " s at protection.over_speed_rad_s = " + written(*fastest),
        most >= 2 ? "lower this value to " + written(most) + " at most, or lower over_speed_rad_s"
-                 : "set it to 1, shorten pwm.period_s, or lower over_speed_rad_s"});
+                 : "set this value to 1, shorten pwm.period_s, or lower over_speed_rad_s"});
 }
 
 void check_braking(const Scenario& s, base::Problems& out) {

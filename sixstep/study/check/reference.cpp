@@ -54,7 +54,7 @@ void check_strays(const Place& p) {
       p.say(
           key.key, "", "has no effect with " + p.shape(),
           "set shape = " + readers_of(key) +
-              ", or remove this key; if an extended file has it, reference = { .. } replaces all keys of that file's reference");
+              ", or remove this key; if an extended file has this key, reference = { .. } replaces all keys of the extended file's reference");
   if (p.r.shape == Shape::csv && p.r.column && p.r.file.empty() && !p.r.times_s.empty())
     p.say("column", "\"" + *p.r.column + "\"",
           "applies to a file only, and times_s and values are given here",

@@ -30,7 +30,7 @@ void check_currents(const Scenario& s, base::Problems& out) {
   if (sensors.currents == CurrentMeasurement::dc_link && !samples_in_middle)
     out.push_back(
         {"sensors.currents", "\"dc-link\"",
-         "shows the current only in the on-time, and samples at the start of the period come before it",
+         "shows the current only in the on-time, and samples at the start of the period come before the on-time",
          "set pwm.sample = \"middle\", best with pwm.alignment = \"centre\""});
 }
 
@@ -122,7 +122,7 @@ void check_probes(const Scenario& s, const std::optional<design::MotorModel>& mo
   check_probe_edges(s, motor, out);
   if (s.sensors.hall_glitches_Hz * s.duration_s > most_glitches)
     out.push_back({"sensors.hall_glitches_Hz", base::written(s.sensors.hall_glitches_Hz),
-                   "makes more than 100000 glitches in duration_s = " + base::written(s.duration_s),
+                   "causes more than 100000 glitches in duration_s = " + base::written(s.duration_s),
                    "lower sensors.hall_glitches_Hz or duration_s"});
 }
 

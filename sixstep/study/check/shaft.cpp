@@ -100,7 +100,7 @@ void check_shaft(const Scenario& s, base::Problems& out) {
                    "needs load.gear, which is not given", "give load.gear, or remove this key"});
   if (l.locked && s.initial.speed_rad_s != 0)
     out.push_back({"initial.speed_rad_s", base::six_digits(s.initial.speed_rad_s),
-                   "contradicts load.locked = true", "set it to 0, or set load.locked = false"});
+                   "contradicts load.locked = true", "set this value to 0, or set load.locked = false"});
   check_torques(s, out);
 }
 

@@ -33,7 +33,7 @@ void check_resolver(const Scenario& s, const std::optional<design::MotorModel>& 
   if (motor && !believed && commutates && std::fmod(motor->machine.pole_pairs, r.pole_pairs) != 0)
     wrong("pole_pairs", std::to_string(r.pole_pairs),
           "does not divide the motor's " + base::written(motor->machine.pole_pairs) +
-              " pole pairs, so that one angle of the resolver has several electrical angles of the motor",
+              " pole pairs, so one angle of the resolver belongs to several electrical angles of the motor",
           "give 1, or a divisor of the motor's pole pairs");
   const double step_s = tracking_period_s(s);
   if (sampled && std::fabs(2 * step_s * r.excitation_Hz - 1) > 1e-9)
@@ -61,7 +61,7 @@ void check_resolver(const Scenario& s, const std::optional<design::MotorModel>& 
           "lower this value, or lengthen pwm.period_s");
   if (s.duration_s * r.converter_Hz > most_clocks)
     wrong("converter_Hz", base::written(r.converter_Hz),
-          "makes more than 1e9 steps of the converter chip in duration_s = " + base::written(s.duration_s),
+          "causes more than 1e9 steps of the converter chip in duration_s = " + base::written(s.duration_s),
           "lower one of the two values");
 }
 
@@ -129,16 +129,16 @@ void check_lines(const Scenario& s, base::Problems& out) {
   const double nearest = std::fmin(std::fmax(whole, 1.0), 1e6);
   out.push_back(
       {"sensors.encoder.pitch_mm", base::written(*e.pitch_mm),
-       "goes " + base::rounded(lines, 6) +
-           " times into two pole pitches; it must go into them a whole number of times, at most 1000000",
-       "take " + base::written(2 * s.sheet.pole_pitch_mm->value / nearest) + " mm"});
+       "fits " + base::rounded(lines, 6) +
+           " times into two pole pitches; two pole pitches must be a whole number of lines, at most 1000000",
+       "set sensors.encoder.pitch_mm to " + base::written(2 * s.sheet.pole_pitch_mm->value / nearest)});
 }
 
 void check_encoder(const Scenario& s, base::Problems& out) {
   check_lines(s, out);
   if (s.sensors.encoder.missed_Hz * s.duration_s > most_missed)
     out.push_back({"sensors.encoder.missed_Hz", base::written(s.sensors.encoder.missed_Hz),
-                   "misses more than 100000 edges in duration_s = " + base::written(s.duration_s),
+                   "causes more than 100000 missed edges in duration_s = " + base::written(s.duration_s),
                    "lower one of the two values"});
 }
 

@@ -24,7 +24,7 @@ LossWords words_of(control::LockLoss loss) {
   using control::LockLoss;
   switch (loss) {
     case LockLoss::masked_crossing:
-      return {"an expected zero crossing did not come",
+      return {"an expected zero crossing did not occur",
               "lower the braking current or the load, or raise control.sensorless.lowest_part"};
     case LockLoss::long_demagnetisation:
       return {"the leaving phase's current hid the crossings",
@@ -146,13 +146,13 @@ base::Problem lost_core(rig::CoreTrouble trouble, double t_s) {
   if (trouble == CoreTrouble::differs)
     return {
         at(t_s), "", "the core's answer differs from the host's; both must agree in every bit",
-        "check the core's compiler and flags; if they are the usual ones, report this message, with the scenario file, in the issues of the repository"};
+        "check the core's compiler and flags; if these are unchanged, report this message, with the scenario file, in the issues of the repository"};
   if (trouble == CoreTrouble::silent)
     return {at(t_s), "", "the core did not answer in time: its program hangs, or its emulator does",
             "debug the function that was called last"};
   if (trouble == CoreTrouble::stalled)
     return {at(t_s), "", "the chip starts no conversion any more: its program hangs or has stopped",
-            "check the program's waiting loops, and how it handles an invalid Hall code"};
+            "check the program's waiting loops, and its reaction to an invalid Hall code"};
   return {at(t_s), "", "the core ended: its program caused a fault, or its emulator was stopped",
           "check the program's memory accesses and stack"};
 }
@@ -163,7 +163,7 @@ base::Problem stopped_by(rig::Fault fault, const rig::Diagnosis& found, double t
   if (fault == rig::Fault::shoot_through)
     return {
         at(t_s), "", "both switches of a leg were on: shoot-through",
-        "look for a shorted switch (bridge.shorted_switch), and for a command with the same leg as source and sink"};
+        "look for a shorted switch (at.bridge.shorted_switch), and for a command with the same leg as source and sink"};
   if (fault == rig::Fault::beyond_model)
     return {
         at(t_s), "",

@@ -65,7 +65,7 @@ std::vector<Column> turning_columns() {
       of(Signal::winding_temperature, "", "temperature of the winding"),
       of(Signal::housing_temperature, "", "temperature of housing and magnets"),
       of(Signal::junction_temperature, "", "temperature of the hottest switch's junction"),
-      {"encoder_A", "1", "", "line A of the incremental encoder, as the board's pin has it"},
+      {"encoder_A", "1", "", "line A of the incremental encoder at the board's pin"},
       {"encoder_B", "1", "", "line B"},
       {"encoder_Z", "1", "", "the index line"},
       {"absolute_code", "1", "", "Gray code that the absolute encoder outputs"},
@@ -82,7 +82,7 @@ std::vector<Column> turning_columns() {
       of(Signal::direct_voltage, "rotor, d", "field-oriented: commanded phase voltage along the magnet"),
       of(Signal::quadrature_voltage, "rotor, q", "field-oriented: commanded phase voltage across the magnet"),
       of(Signal::angle_error, "electrical",
-         "field-oriented: error of the magnet's angle as the drive computes it"),
+         "field-oriented: error of the magnet's angle that the drive computes"),
   };
 }
 
@@ -189,7 +189,7 @@ base::Result<std::vector<std::size_t>> record_indices(const Scenario& scenario) 
         std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
     if (found == columns.end())
       problems.push_back({"record.columns", "\"" + name + "\"", "is not a column of the trace",
-                          "name one of the columns that sixstep help record.columns lists"});
+                          "name one of the columns that the help on record.columns lists"});
     else if (found != columns.begin())
       indices.push_back(static_cast<std::size_t>(found - columns.begin()));
   }

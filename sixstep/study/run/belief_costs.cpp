@@ -137,7 +137,7 @@ std::string on_hall_table(const Scenario& s) {
     wrong += control::sector_of_hall(rig::code_at(s.believed.hall_lines,
                                                   wires.at_pins(control::hall_of_sector(sector)))) != sector;
   if (wrong == 0) return {};
-  return "the drive's Hall table does not fit the wires (believed.hall_lines, sensors.hall_lines): it assigns " +
+  return "the drive's Hall table does not fit the wires (believed.hall_lines, sensors.hall_lines): the table assigns " +
          std::to_string(wrong) + " of 6 codes to a wrong sector";
 }
 

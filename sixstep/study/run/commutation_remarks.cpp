@@ -49,7 +49,7 @@ std::string on_chopped_staying_leg(const Scenario& s, const RunWatch& w) {
       pattern == PwmPattern::pwm_on || pattern == PwmPattern::pwm_on_pwm)
     return {};
   return named(s) + " with pwm.pattern = \"" + std::string(base::word(pattern_choices, pattern)) +
-         "\" causes a larger current peak and a deeper torque dip than with \"pwm-on\". At some commutations this pattern chops the staying leg: a duty above 1/2 then stays in effect for up to one period after the commutation";
+         "\" causes a larger current peak and a deeper torque dip than \"pwm-on\". At some commutations this pattern chops the staying leg: a duty above 1/2 then stays in effect for up to one period after the commutation";
 }
 
 /// Margin of longest_overlap_rad_s(): because of the current's ripple, an overlap lowers the torque from 0.98

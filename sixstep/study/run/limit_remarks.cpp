@@ -22,7 +22,7 @@ std::string on_battery(const Scenario& s, const RunWatch& w) {
   if (w.full_s)
     return "the battery was full at t = " + few_digits(*w.full_s) + " s, and its charge rose to " +
            few_digits(w.highest_charge) +
-           ". The run returns more charge than the battery can take; begin with a lower supply.battery_charge, or add a brake chopper (supply.brake_resistance_ohm)";
+           ". The run returns more charge than the battery can store; begin with a lower supply.battery_charge, or add a brake chopper (supply.brake_resistance_ohm)";
   return {};
 }
 

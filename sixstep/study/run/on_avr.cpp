@@ -64,7 +64,7 @@ bool drifts(const At& at) { return at.sensors.current_offset_A || at.sensors.cur
 void need_converter(const Scenario& s, base::Problems& out) {
   need(
       !std::any_of(s.at.begin(), s.at.end(), drifts), out, "at.sensors",
-      "makes a transducer drift during the run, which the AVR's board does not support",
+      "changes a transducer's offset or gain during the run, which the AVR's board does not support",
       "give the transducer's offset and gain from the start: sensors.current_offset_A and current_gain_error");
   need(s.sensors.currents == rig::CurrentMeasurement::phases, out, "sensors.currents",
        "is not supported: the AVR's board has a transducer in each phase",

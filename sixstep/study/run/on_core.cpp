@@ -21,7 +21,7 @@ base::Problems not_on_a_core(const Scenario& s) {
         {"control.mode", "\"off\"", "runs no controller that a core could execute", "set control.mode"});
   if (std::any_of(s.at.begin(), s.at.end(), retunes))
     out.push_back({"at.control", "", "changes settings of the chip that are fixed in the core's program",
-                   "remove such [[at]] events, or run the scenario without --on"});
+                   "remove such [[at]] events, or run the scenario without a core"});
   return out;
 }
 

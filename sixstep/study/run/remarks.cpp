@@ -188,7 +188,7 @@ std::string on_worse_ends(const Scenario& s, const RunWatch& w) {
   const double rise = design::greater_rise(*model, worse->model) * (w.winding_degC - start);
   if (!(start + rise > worse->model.max_winding_degC)) return {};
   return "the winding stayed below " + few_digits(model->max_winding_degC) +
-         " degC by the thermal values of the motor file, but may exceed it by the worse ends of the thermal ranges; repeat the run with [motor_override] " +
+         " degC with the thermal values of the motor file, but may exceed this limit with the worse ends of the thermal ranges; repeat the run with [motor_override] " +
          worse->values;
 }
 

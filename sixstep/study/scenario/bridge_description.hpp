@@ -35,7 +35,8 @@ inline void describe_losses(base::Visitor& v, Bridge& s) {
           {.meaning = "current at which the switching energies are given", .unit = "A", .range = from(0)});
   v.value(
       "gate_current_A", s.gate_current_A,
-      {.meaning = "mosfet: current of the gate driver; with the two gate charges it replaces the energies",
+      {.meaning =
+           "mosfet: current of the gate driver; this current and the two gate charges replace the energies",
        .unit = "A",
        .range = between(0, most_gate_A)});
   v.value("gate_source_charge_C", s.gate_source_charge_C,

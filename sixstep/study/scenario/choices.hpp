@@ -43,8 +43,8 @@ inline constexpr Choice<control::Chopping> chopping_choices[] = {
      "as soft, and the source phase's lower switch is on while its upper switch is off"},
 };
 inline constexpr Choice<control::PwmPattern> pattern_choices[] = {
-    {"upper", control::PwmPattern::upper, "the upper switch; the lower one stays on (H_PWM-L_ON)"},
-    {"lower", control::PwmPattern::lower, "the lower switch; the upper one stays on (H_ON-L_PWM)"},
+    {"upper", control::PwmPattern::upper, "the upper switch; the lower switch stays on (H_PWM-L_ON)"},
+    {"lower", control::PwmPattern::lower, "the lower switch; the upper switch stays on (H_ON-L_PWM)"},
     {"pwm-on", control::PwmPattern::pwm_on,
      "the entering leg's switch; this leg has conducted since the last commutation"},
     {"on-pwm", control::PwmPattern::on_pwm,
@@ -72,8 +72,7 @@ inline constexpr Choice<FirmwareKind> drive_choices[] = {
      "the loops without a rotor position sensor: open-loop start, then back-EMF, as in "
      "[control.sensorless]. Needs pwm.alignment = \"centre\" and pwm.sample = \"middle\""},
     {"field-oriented", FirmwareKind::field,
-     "sine currents on three legs, controlled along the magnet and across it, as in [control.field]. The "
-     "controlled current is their amplitude i_q. Needs pwm.alignment = \"centre\""},
+     "sine currents on three legs, controlled along the magnet and across the magnet, as in [control.field]. The controlled current is the amplitude i_q. Needs pwm.alignment = \"centre\""},
     {"own", FirmwareKind::own,
      "the user's controller, compiled into a shared object that [control.own] names"},
 };
@@ -97,8 +96,7 @@ inline constexpr Choice<CurrentLoopType> current_loop_choices[] = {
     {"hysteresis", CurrentLoopType::hysteresis,
      "on-off control: the switch turns on below the band and off above the band"},
     {"deadbeat", CurrentLoopType::deadbeat,
-     "the voltage that brings a winding with the sheet's R and L to its reference, one period after the "
-     "answer begins"},
+     "deadbeat: the voltage that brings the current of a winding with the sheet's R and L to its reference one period after the command acts"},
 };
 inline constexpr Choice<CurrentFeedback> current_feedback_choices[] = {
     {"mean", CurrentFeedback::mean, "half the difference of the driven pair's currents"},

@@ -8,7 +8,7 @@ namespace sixstep::study {
 
 inline constexpr base::Choice<rig::CrossingReference> crossing_reference_choices[] = {
     {"virtual-star", rig::CrossingReference::virtual_star,
-     "the mean of the three filtered terminals, as three equal resistors make it"},
+     "the mean of the three filtered terminal voltages, as formed by three equal resistors"},
     {"half-bus", rig::CrossingReference::half_bus,
      "half the bus voltage, with the same filter: valid while the driven pair is on, so the filter must settle within half a pulse"},
 };

@@ -215,11 +215,12 @@ inline void describe(base::Visitor& v, Regeneration& s) {
 }
 
 inline void describe(base::Visitor& v, Limits& s) {
-  v.value("current_A", s.current_A,
-          {.meaning = "bound on the current reference in every mode; where a measured phase current exceeds "
-                      "it by a quarter, all gates are off until the next sample",
-           .unit = "A",
-           .range = above(0)});
+  v.value(
+      "current_A", s.current_A,
+      {.meaning =
+           "bound on the current reference in every mode; if a measured phase current exceeds this bound by a quarter, all gates are off until the next sample",
+       .unit = "A",
+       .range = above(0)});
   v.value(
       "torque_Nm", s.torque_Nm,
       {.meaning =
@@ -227,12 +228,13 @@ inline void describe(base::Visitor& v, Limits& s) {
        .unit = "N m",
        .range = above(0),
        .also = words::force});
-  v.value("speed_rad_s", s.speed_rad_s,
-          {.meaning = "limit of the speed that the drive's own torque may reach; above it all gates are off, "
-                      "unless the drive brakes",
-           .unit = "rad/s",
-           .range = above(0),
-           .also = words::speed});
+  v.value(
+      "speed_rad_s", s.speed_rad_s,
+      {.meaning =
+           "limit of the speed that the drive's own torque may reach; above this speed all gates are off, unless the drive brakes",
+       .unit = "rad/s",
+       .range = above(0),
+       .also = words::speed});
   v.value(
       "gain_A_s_per_rad", s.gain_A_s_per_rad,
       {.meaning =
@@ -295,13 +297,14 @@ inline void describe(base::Visitor& v, Control& s) {
   v.table(
       "advance", s.advance,
       {.meaning =
-           "product drive: commutation at a control tick ahead of the Hall edge; without it the pair changes at the edge"});
+           "product drive: commutation at a control tick ahead of the Hall edge; without an advance the pair changes at the edge"});
   v.table(
       "sensorless", s.sensorless,
       {.meaning =
-           "sensorless drive: its start, and the quantity that it follows; designed from the motor's sheet"});
-  v.table("field", s.field,
-          {.meaning = "field-oriented drive: control of the currents along the magnet and across it"});
+           "sensorless drive: start of the rotor, and the signal that the commutation follows; designed from the motor's sheet"});
+  v.table(
+      "field", s.field,
+      {.meaning = "field-oriented drive: control of the currents along the magnet and across the magnet"});
   v.table("own", s.own, {.meaning = "the user's controller: its file and its numbers"});
 }
 

@@ -63,7 +63,7 @@ inline void describe(base::Visitor& v, Field& s) {
            "up to the middle of the period in which the command is applied",
        .range = base::between(0, 10)});
   v.choice("angle", s.angle, field_angle_choices,
-           {.meaning = "where the drive gets the magnet's angle from"});
+           {.meaning = "method by which the drive determines the magnet's angle"});
   v.value("angle_bandwidth_Hz", s.angle_bandwidth_Hz,
           {.meaning = "bandwidth of the loop that tracks the estimated angle. Default: a hundredth of the "
                       "control frequency, more if the angle would lag by 5 degrees at full torque",
@@ -76,15 +76,16 @@ inline void describe(base::Visitor& v, Field& s) {
        .unit = "V",
        .range = above(0)});
   v.value("observer_from_rad_s", s.observer_from_rad_s,
-          {.meaning = "speed above which the observer alone gives the angle. Default: speed at which the "
+          {.meaning = "speed above which only the observer determines the angle. Default: speed at which the "
                       "back-EMF is a tenth of the largest voltage of three legs",
            .unit = "rad/s",
            .range = above(0)});
-  v.value("start_current_A", s.start_current_A,
-          {.meaning = "current amplitude that turns the rotor until the observer follows it. Default: the "
-                      "limit or the nominal current",
-           .unit = "A",
-           .range = above(0)});
+  v.value(
+      "start_current_A", s.start_current_A,
+      {.meaning = "current amplitude that turns the rotor until the observer follows the rotor. Default: the "
+                  "limit or the nominal current",
+       .unit = "A",
+       .range = above(0)});
   v.value(
       "harmonic_current", s.harmonic_current,
       {.meaning =
@@ -96,15 +97,16 @@ inline void describe(base::Visitor& v, Field& s) {
            "finite-set: weight of one switching of a leg, as a current; its square is added to the squared distance of the current from its reference",
        .unit = "A",
        .range = base::from(0)});
-  v.value("peak_A", s.peak_A,
-          {.meaning = "finite-set: limit of the current amplitude; a state that exceeds it is chosen only if "
-                      "all states do",
-           .unit = "A",
-           .range = above(0)});
+  v.value(
+      "peak_A", s.peak_A,
+      {.meaning =
+           "finite-set: limit of the current amplitude; a state that exceeds this limit is chosen only if all states exceed the limit",
+       .unit = "A",
+       .range = above(0)});
   v.value(
       "delay_compensation", s.delay_compensation,
       {.meaning =
-           "finite-set: whether the current is predicted for the period in which the answer acts, if it acts one period late"});
+           "finite-set: whether the controller predicts the current in the period in which its answer acts, if the answer acts one period late"});
 }
 
 }  // namespace sixstep::study

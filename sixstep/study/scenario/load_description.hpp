@@ -15,8 +15,7 @@ inline void describe(base::Visitor& v, Load& s) {
   v.value(
       "torque_Nm", s.torque_Nm,
       {.meaning =
-           "constant load torque, positive against forward motion; it also turns a shaft that coasts, as a hanging "
-           "weight does",
+           "constant load torque, positive against forward motion; this torque also turns a shaft that coasts, as a hanging weight does",
        .unit = "N m",
        .also = words::force});
   v.value(
@@ -27,7 +26,7 @@ inline void describe(base::Visitor& v, Load& s) {
            .unit = "N m",
            .also = words::forces});
   v.choice("between", s.between, between_choices,
-           {.meaning = "transition from one of torques_Nm to the next"});
+           {.meaning = "transition from one value of torques_Nm to the next"});
   v.value("at_speeds_rad_s", s.at_speeds_rad_s,
           {.meaning = "speeds of the load at which at_speeds_Nm gives the torques, rising",
            .unit = "rad/s",

@@ -76,12 +76,10 @@ inline constexpr MetricFact metric_facts[] = {
     {MetricKind::overshoot, "overshoot", "overshoot of", "",
      "overshoot of the signal beyond level, in the signal's unit", TakenOf::signal, TakenOver::steps},
     {MetricKind::reach_time, "reach_time_s", "time to reach,", "s",
-     "time until the signal first gets to start + fraction (level - start); without level: the slowest over "
-     "all steps of the reference",
+     "time until the signal first reaches start + fraction (level - start); without level: the longest time over all steps of the reference",
      TakenOf::signal, TakenOver::steps},
     {MetricKind::rise_time, "rise_time_s", "rise time of", "s",
-     "time from 10 % to 90 % of the way from start to level; without level: the slowest over all steps of "
-     "the reference",
+     "time from 10 % to 90 % of the way from start to level; without level: the longest time over all steps of the reference",
      TakenOf::signal, TakenOver::steps},
     {MetricKind::settling_time, "settling_time_s", "settling time of", "s",
      "time of the last exit from level +- band |level - start|, counted from from_s; with sampled: time of the first sample after which all samples lie inside",

@@ -67,9 +67,10 @@ inline void describe(base::Visitor& v, Reference& s) {
   v.value("period_s", s.period_s,
           {.meaning = "square: length of one period", .unit = "s", .range = base::from(shortest_period_s)});
   describe_moving(v, s);
-  v.value("file", s.file,
-          {.meaning = "csv: a file beside this one, time in s first, then the reference; instead of times_s "
-                      "and values"});
+  v.value(
+      "file", s.file,
+      {.meaning =
+           "csv: path of a file, relative to this file, with the time in s first, then the reference; instead of times_s and values"});
   v.value("column", s.column,
           {.meaning =
                "csv: heading of the column with the reference; not needed if the file has only two columns"});

@@ -92,11 +92,11 @@ void describe(base::Visitor& v, Spread& s) {
 }
 
 void describe(base::Visitor& v, Scenario& s) {
-  v.value("title", s.title, {.meaning = "one line that names the run"});
+  v.value("title", s.title, {.meaning = "title of the run, one line"});
   v.value(
       "extends", s.extends,
       {.meaning =
-           "a scenario beside this one, or a list of them, whose keys apply where this file does not set them; a later file overrides an earlier file. Lists of tables are appended; an empty list [] or table {} removes the inherited list or table"});
+           "another scenario file, or a list of files, whose keys apply where this file does not set them; a later file of the list overrides an earlier file. Lists of tables are appended; an empty list [] or table {} removes the inherited list or table"});
   v.value(
       "motor", s.motor,
       {.meaning =
@@ -114,10 +114,10 @@ void describe(base::Visitor& v, Scenario& s) {
            "reason for which the design is not usable. A design writes this line and each run prints it; while this line is present, no header is exported"});
   v.table("motor_override", s.sheet,
           {.meaning = "values that replace single values of the motor file", .partial = true});
-  v.table("believed", s.believed,
-          {.meaning = "values of motor and sensor that the drive believes, instead of the true ones; its "
-                      "design, its firmware and the exported header use them, and the simulated motor does "
-                      "not"});
+  v.table(
+      "believed", s.believed,
+      {.meaning =
+           "wrong values of motor and sensor that the drive assumes; the drive's design, firmware and exported header use these values, the simulated motor uses the true values"});
   v.table("supply", s.supply, {.meaning = "source of the bus"});
   v.table("bridge", s.bridge, {.meaning = "six switches with antiparallel diodes"});
   v.table("heat", s.heat,

@@ -25,7 +25,7 @@ inline constexpr base::Choice<StartsBy> starts_by_choices[] = {
     {"alignment", StartsBy::alignment,
      "alignment: two driven pairs, one after the other, pull the rotor to a known angle"},
     {"pulses", StartsBy::pulses,
-     "six short pulses measure the rotor's angle if saliency and saturation allow it; else the rotor is aligned"},
+     "six short pulses measure the rotor's angle if saliency and saturation are large enough; else the rotor is aligned"},
 };
 
 inline void describe(base::Visitor& v, Sensorless& s) {
@@ -54,10 +54,11 @@ inline void describe(base::Visitor& v, Sensorless& s) {
            "time after the end of the freewheeling in which no crossing counts, because the dividers' filters must settle",
        .unit = "s",
        .range = base::from(0)});
-  v.value("mismatch", s.mismatch,
-          {.meaning = "largest relative difference of the three terminals' dividers; the threshold for "
-                      "crossings includes it",
-           .range = base::Range{0, 0.2, true, false}});
+  v.value(
+      "mismatch", s.mismatch,
+      {.meaning =
+           "largest relative difference of the three terminals' dividers; the threshold for crossings includes this difference",
+       .range = base::Range{0, 0.2, true, false}});
   v.choice(
       "follows", s.follows, follow_choices,
       {.meaning =

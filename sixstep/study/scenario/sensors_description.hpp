@@ -13,7 +13,7 @@ inline constexpr base::Choice<rig::CurrentMeasurement> current_sensing_choices[]
     {"phases", rig::CurrentMeasurement::phases, "an amplifier and a converter per phase"},
     {"dc-link", rig::CurrentMeasurement::dc_link,
      "one shunt or Hall transducer in the DC link, or in the bus's return, which shows the motor current "
-     "within the on-time only"},
+     "only within the on-time"},
     {"low-side", rig::CurrentMeasurement::low_side,
      "shunts below the lower switches of the legs that shunts names, each of which shows its leg's current while "
      "the lower switch or its diode conducts"},
@@ -35,17 +35,16 @@ inline constexpr base::Choice<RotorSensing> rotor_sensing_choices[] = {
     {"ideal", RotorSensing::ideal, "exact speed and position; for the sensorless drive: no probes"},
     {"hall", RotorSensing::hall, "from the times of the Hall edges, by the controller's own blocks"},
     {"encoder", RotorSensing::encoder,
-     "from an incremental encoder; on the motor's shaft it also commutates"},
+     "from an incremental encoder; an encoder on the motor's shaft also commutates"},
     {"absolute", RotorSensing::absolute,
-     "from an absolute encoder in Gray code; on the motor's shaft it also commutates"},
+     "from an absolute encoder in Gray code; an encoder on the motor's shaft also commutates"},
     {"resolver", RotorSensing::resolver,
-     "from a resolver and a tracking loop; on the motor's shaft it also commutates"},
+     "from a resolver and a tracking loop; a resolver on the motor's shaft also commutates"},
 };
 inline constexpr base::Choice<rig::HallAngleFrom> hall_angle_choices[] = {
     {"sectors", rig::HallAngleFrom::sectors, "in sectors of 60 degrees, counted at the Hall edges"},
     {"interpolated", rig::HallAngleFrom::angle,
-     "by an angle that is interpolated between edges, minus the effect of the probes' known delay and hysteresis; with "
-     "pwm.commutation = \"sample\" it also commutates"},
+     "by an angle that is interpolated between edges, minus the effect of the probes' known delay and hysteresis; with pwm.commutation = \"sample\" this angle also commutates"},
     {"calibrated", rig::HallAngleFrom::learned_edges,
      "as interpolated, with the angles of the edges measured in the first steady turns; the common offset of the edges is not measured"},
 };
@@ -69,7 +68,7 @@ inline constexpr base::Choice<rig::WireOrder> hall_order_choices[] = {
     {"213", rig::WireOrder::bac, "probes 1 and 2 swapped"},
 };
 inline constexpr base::Choice<HallLines> hall_inverted_choices[] = {
-    {"none", HallLines::none, "each pin reads its probe as it is"},
+    {"none", HallLines::none, "no pin reads its probe inverted"},
     {"1", HallLines::line_1, "H1 reads its probe inverted"},
     {"2", HallLines::line_2, "H2 reads its probe inverted"},
     {"3", HallLines::line_3, "H3 reads its probe inverted"},
@@ -99,10 +98,12 @@ inline void describe_currents(base::Visitor& v, Sensors& s) {
            {.meaning = "how the controller's currents are measured"});
   v.value("adc_bits", s.adc_bits,
           {.meaning = "bits of the converters of currents and bus voltage", .range = base::between(4, 16)});
-  v.value("current_range_A", s.current_range_A,
-          {.meaning = "current at the converter's full scale: it measures from minus this value to plus it",
-           .unit = "A",
-           .range = base::above(0)});
+  v.value(
+      "current_range_A", s.current_range_A,
+      {.meaning =
+           "current at the converter's full scale: the converter measures from minus this value to plus this value",
+       .unit = "A",
+       .range = base::above(0)});
   v.value("current_offset_A", s.current_offset_A,
           {.meaning = "offset of the amplifiers: reading at zero current", .unit = "A"});
   v.value("current_gain_error", s.current_gain_error,

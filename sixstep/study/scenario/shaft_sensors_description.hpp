@@ -11,7 +11,7 @@ inline constexpr base::Choice<rig::ResolverReading> resolver_reading_choices[] =
     {"sampled", rig::ResolverReading::sampled,
      "the drive samples both windings at the excitation's peaks; a tracking loop of the drive follows the samples"},
     {"tracking", rig::ResolverReading::tracking,
-     "a converter chip tracks both windings at its own clock and gives angle and speed"},
+     "a converter chip tracks both windings at its own clock and outputs angle and speed"},
 };
 
 }  // namespace sixstep::study

@@ -135,8 +135,7 @@ inline constexpr SignalFact signal_facts[] = {
     {Signal::quadrature_voltage, "v_q_V", "voltage across the magnet", "V",
      "field-oriented: commanded phase voltage across the magnet at the last sample", SignalKind::held},
     {Signal::angle_error, "angle_error_deg", "error of the angle", "deg",
-     "field-oriented: electrical angle by which the drive's magnet angle was ahead of the true one, at the "
-     "last sample",
+     "field-oriented: electrical angle by which the drive's magnet angle was ahead of the true angle, at the last sample",
      SignalKind::held},
 };
 

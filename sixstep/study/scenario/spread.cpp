@@ -160,8 +160,8 @@ struct Checker {
     if (!may_stray(spread.key) || (!at.number && !at.left_out))
       return add(
           where + ".key", "\"" + spread.key + "\"",
-          "is not a number that may differ from drive to drive: one of motor_override, supply, bridge, load, initial or believed, or a place of a Hall edge or a sensor",
-          "write it as table.key, for example \"supply.voltage_V\"; the help on spread.key lists the motor's keys");
+          "is not a number that may differ from drive to drive: only numbers of motor_override, supply, bridge, load, initial or believed, and angles of Hall edges or sensors",
+          "write the key as table.key, for example \"supply.voltage_V\"; the help on spread.key lists the motor's keys");
     if (!at.number)
       return add(where + ".key", "\"" + spread.key + "\"",
                  "has no value in the motor file that could differ from drive to drive",

@@ -84,7 +84,7 @@ inline void describe(base::Visitor& v, Supply& s) {
            .range = from(0)});
   v.value("mains_Hz", s.mains_Hz, {.meaning = "frequency of the mains", .unit = "Hz", .range = above(0)});
   v.value("rectifier_drop_V", s.rectifier_drop_V,
-          {.meaning = "forward drop of one rectifier diode; two conduct in series",
+          {.meaning = "forward drop of one rectifier diode; two diodes conduct in series",
            .unit = "V",
            .range = from(0)});
 }

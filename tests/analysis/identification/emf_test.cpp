@@ -317,7 +317,7 @@ TEST(Emf, WhatIsNoRecordingIsToldWhy) {
   request.record.channels[0].u_V[7] = NAN;
   EXPECT_THAT(told(request), HasSubstr("ch1 = nan in row 8 is not a number"));
   request.record.channels[0].u_V.pop_back();
-  EXPECT_THAT(told(request), HasSubstr("must be one for each of"));
+  EXPECT_THAT(told(request), HasSubstr("must have one value for each of"));
   request.record = {};
   EXPECT_THAT(told(request), HasSubstr("channels = 0"));
 }

@@ -194,7 +194,7 @@ TEST(Identify, EdgesOfEachPolePairOfTheShaft) {
   EXPECT_GT(by_six->jitter_deg.value, 10 * found->jitter_deg.value);
   const auto rare = analysis::identify(drawn_log(with_voltages(drilled())).log, 7);
   ASSERT_FALSE(rare);
-  EXPECT_THAT(to_string(rare.problems()[0]), HasSubstr("pole_pairs = 7 has 42 edges on a turn of the shaft"));
+  EXPECT_THAT(to_string(rare.problems()[0]), HasSubstr("pole_pairs = 7 has 42 edges in a turn of the shaft"));
   const auto blind = analysis::identify(drawn_log(drilled()).log, 7);
   ASSERT_FALSE(blind);
   EXPECT_THAT(to_string(blind.problems()[0]), HasSubstr("pole_pairs = 7 needs voltages"));

@@ -153,7 +153,7 @@ TEST(TraceComparison, AHandfulOfRowsAtTheLeast) {
   ASSERT_FALSE(few);
   EXPECT_EQ(
       to_string(few.problems()[0]),
-      "log.csv: has 1 of 5 rows in the simulated time, 0 to 1 s; the log covers 0 to 4000 s, and 5 are needed; correct the unit of the log's time, or give --shift, the offset of the log's clock");
+      "log.csv: has 1 of 5 rows in the simulated time, 0 to 1 s; the log covers 0 to 4000 s, and 5 are needed; correct the unit of the log's time, or give the offset of the log's clock");
   const auto enough = of({0, 0.2, 0.4, 0.6, 0.8, 1.5});
   ASSERT_TRUE(enough);
   ASSERT_EQ(enough->columns.size(), 1u);

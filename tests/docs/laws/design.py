@@ -161,7 +161,7 @@ def seconds(text, symbol):
 def swing(test, spot):
     """The speed swings by less than twice the no-load speed. With ideal sensors the swing is smaller than with the
     real sensor."""
-    m = re.search(r"swings by ([\d.]+) rad/s without end; with ideal sensors by ([\d.]+) rad/s", spot.text)
+    m = re.search(r"swings by ([\d.]+) rad/s without end; with ideal sensors the swing is ([\d.]+) rad/s", spot.text)
     if m:
         test.assertTrue(float(m.group(2)) < float(m.group(1)) < 2 * U / K_T, str(spot))
     for angle in re.findall(r"phase margin, one period late +([\d.]+) deg", spot.text):

@@ -234,7 +234,7 @@ BY_TEXT = [
     ("docs/howto/run-a-firmware", "ms throttle", firmware.course), ("docs/reference/keys/", "| key |", default_in_range),
 ]
 # Messages of the program, which repeat the input or the allowed values.
-MESSAGES = [("docs/howto/use-the-c-library.md", "must lie in"), ("docs/start/tour-bench-and-chip.md", "gives the drive currents"), ("docs/howto/measure-the-back-emf.md", "short.csv: "), ("docs/howto/find-the-hall-order.md", "short.csv: "),
+MESSAGES = [("docs/howto/use-the-c-library.md", "must lie in"), ("docs/start/tour-bench-and-chip.md", "gives the drive phase currents"), ("docs/howto/measure-the-back-emf.md", "short.csv: "), ("docs/howto/find-the-hall-order.md", "short.csv: "),
             ("docs/start/sheet-questions.md", "coil.toml:4"), ("docs/start/sheet-questions.md", "motor show kv.toml | grep pole"),
             ("docs/start/tour.md", "dampng"), ("docs/start/tour.md", "relations hold"), ("docs/start/tour.md", "line_"), ("docs/start/tour.md", "help control.current.damping"),
             ("docs/explanation/accuracy.md", "'mean current  '"), ("docs/start/tour-bench-and-chip.md", "hot-plug.toml | head"),

@@ -32,7 +32,7 @@ static_assert(sizeof(Scalar) == 2, "the signals must have 16 bits: set control.a
 #ifndef SIXSTEP_DESPITE  // defined by tools/firmware_image.sh --despite, and for an emulated chip
 static_assert(
     exported::cleared,
-    "the header says that its drive is not cleared for a bridge; tools/firmware_image.sh builds it with --despite");
+    "the header says that its drive is not cleared for a bridge; tools/firmware_image.sh builds the image with --despite");
 #endif
 static_assert(exported::dead_time_ps > 0,
               "without a dead time both switches of a leg are on for a moment: set bridge.dead_time_s");

@@ -42,7 +42,7 @@ constexpr bool break_active_high = false;
 // All other constants follow from the drive.
 static_assert(
     exported::cleared || accepts_uncleared,
-    "the header says that its drive is not cleared for a bridge; tools/firmware_image.sh builds it with --despite");
+    "the header says that its drive is not cleared for a bridge; tools/firmware_image.sh builds the image with --despite");
 
 constexpr std::uint32_t counts_of_ns(std::uint64_t ns) {
   return static_cast<std::uint32_t>((ns * (clock_Hz / 1'000'000) + 999) / 1'000);

@@ -124,7 +124,7 @@ base::Problem no_period(const std::vector<double>& t_s, const std::string& chann
     return {.where = "time",
             .value = base::six_digits(t_s[row]) + " s",
             .limit = "in row " + std::to_string(row + 1) + " is followed by a gap of " +
-                     base::three_digits(*longest) + " s, and " + channel + " shows no steady period",
+                     base::three_digits(*longest) + " s, and " + channel + " has no steady period",
             .cure = "use a part of the recording without a gap, at least one and a half periods long"};
   }
   if (!regular)
@@ -132,7 +132,7 @@ base::Problem no_period(const std::vector<double>& t_s, const std::string& chann
         .where = channel,
         .value = "",
         .limit =
-            "has half waves of very different lengths: it is noise, or the motor's speed changes all the time",
+            "has half waves of very different lengths: the signal is noise, or the motor's speed changes all the time",
         .cure = "check the probe's connection, and turn the motor at a constant speed during the recording"};
   return {.where = channel,
           .limit = "crosses its mean only " + std::to_string(passed) + (passed == 1 ? " time" : " times") +
@@ -193,8 +193,9 @@ base::Problems check_clipped(const EmfRecord& record, const EmfResult& result) {
     if (!lost && !bent) continue;
     return {{.where = channel.name,
              .value = "",
-             .limit = "is clipped: it stays at " + base::six_digits(*high) + " or " + base::six_digits(*low) +
-                      " V for " + base::three_digits(100.0 * channel.clipped) + " % of a period",
+             .limit = "is clipped: the voltage stays at " + base::six_digits(*high) + " or " +
+                      base::six_digits(*low) + " V for " + base::three_digits(100.0 * channel.clipped) +
+                      " % of a period",
              .cure = "record the voltage again in a larger range of the channel"}};
   }
   return {};

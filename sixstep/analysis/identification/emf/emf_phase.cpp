@@ -147,7 +147,7 @@ base::Result<EmfPhase> rough_phase(const EmfRecord& record) {
   if (!(out.rate[0] > 0.0) || !(out.speed(record.t_s.front()) > 0.0) || !(out.speed(record.t_s.back()) > 0.0))
     return base::Problem{.where = name,
                          .limit = "has no steady frequency: the motor stopped or turned back",
-                         .cure = "use a part of the recording in which the motor turns one way"};
+                         .cure = "use a part of the recording in which the motor turns in one direction"};
   return out;
 }
 

@@ -16,7 +16,7 @@ base::Problems check(const HallLog& log) {
   if (log.codes.size() != rows)
     return {{.where = "hall",
              .value = std::to_string(log.codes.size()) + " codes",
-             .limit = "must be one for each of " + std::to_string(rows) + " times",
+             .limit = "must have one value for each of " + std::to_string(rows) + " times",
              .cure = "give columns of equal length"}};
   for (std::size_t n = 0; n < rows; ++n)
     if (log.codes[n] > 7)

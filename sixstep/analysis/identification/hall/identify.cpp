@@ -108,7 +108,7 @@ std::optional<base::Problem> too_rare(const HallEdges& edges, std::size_t own) {
       .where = "pole_pairs",
       .value = std::to_string(own / 6),
       .limit = "has " + std::to_string(own) +
-               " edges on a turn of the shaft, and the log passes one of them " +
+               " edges in a turn of the shaft, and the log contains one of these edges " +
                (least == 0 ? "never" : "once"),
       .cure = "turn the shaft by at least two turns without reversing, or remove the pole pairs"};
 }

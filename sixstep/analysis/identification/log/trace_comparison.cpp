@@ -249,7 +249,7 @@ base::Result<Overlay> overlay(const std::string& name, const study::Trace& simul
                          std::to_string(fewest_compared) + " are needed"
                    : "has no column with " + std::to_string(fewest_compared) +
                          " rows at which this run has a value",
-      .cure = few ? "correct the unit of the log's time, or give --shift, the offset of the log's clock"
+      .cure = few ? "correct the unit of the log's time, or give the offset of the log's clock"
                   : "name columns for which the simulated drive has values"};
 }
 
