@@ -286,7 +286,7 @@ void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, const 
   if (const std::string unused = unused_keys(s, thermal.use_ambient(s)); !unused.empty())
     add("given without effect: " + unused);
   if (!s.not_usable.empty()) add("the design of this drive is NOT USABLE: " + s.not_usable);
-  for (std::string& text : belief_costs(s, c)) add(std::move(text));
+  for (BeliefCost& cost : belief_costs(s, c)) add(std::move(cost.text));
   add(sheet_contradiction(s));
   add(on_supply(s));
   add(std::move(thermal.limit));
