@@ -36,6 +36,7 @@ base::Result<text::NamedText> find_motor(const text::Naming& motor, const std::s
   for (const std::string& path : paths) {
     std::error_code ignored;
     if (!fs::exists(path, ignored) || fs::is_directory(path, ignored)) continue;
+    if (fs::equivalent(path, motor.from, ignored)) continue;  // a scenario may have its motor's name
     base::Result<std::string> text = read_text(path);
     if (!text) return text.problems();
     return text::NamedText{path, std::move(*text)};

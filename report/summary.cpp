@@ -179,8 +179,7 @@ std::string step_sentences(const Step& step, const StepCurrent& current, double 
     text += fmt::format(" From then until the {}: {} on average, between {} and {}.",
                         step.next_s < end_s ? "next step" : "end", ampere(*current.then_mean_A),
                         ampere(current.then_low_A), ampere(current.then_high_A));
-  return "<p>" + text + "</p>" +
-         (current.then_mean_A && step.held.column == std::string_view("i_m_A") ? of_the_pair : "");
+  return "<p>" + text + "</p>" + (step.held.column == std::string_view("i_m_A") ? of_the_pair : "");
 }
 
 std::string step(const Scenario& scenario, const Trace& trace) {

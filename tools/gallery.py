@@ -44,14 +44,16 @@ def trace(program, name, columns, extra):
 def picture(program, section):
     unit, names = section["time"], [scenario["file"] for scenario in section["scenario"]]
     scale, span = UNITS[unit], section["span"]
-    asked = sorted({(names[curve.get("of", 0)], curve["column"]) for p in section["panel"] for curve in p["curve"]})
-    traces = {name: trace(program, name, [c for n, c in asked if n == name], section.get("set", []))
-              for name in sorted({n for n, _ in asked})}
+    def of(curve):
+        return names[curve.get("of", 0)], *curve.get("set", [])
+    asked = sorted({(of(curve), curve["column"]) for p in section["panel"] for curve in p["curve"]})
+    traces = {key: trace(program, key[0], [c for k, c in asked if k == key], [*section.get("set", []), *key[1:]])
+              for key in sorted({k for k, _ in asked})}
     panels = []
     for p in section["panel"]:
         curves = []
         for curve in p["curve"]:
-            columns = traces[names[curve.get("of", 0)]]
+            columns = traces[of(curve)]
             points = [(t * scale, value * p.get("factor", 1)) for t, value in zip(columns["t_s"], columns[curve["column"]])
                       if span[0] <= t * scale <= span[1]]
             curves.append((curve["label"], points, curve.get("dashed", False)))

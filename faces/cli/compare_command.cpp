@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <span>
@@ -139,12 +140,17 @@ base::Problems lay_over(Log& log, const Compared& run) {
   study::Trace& trace = log.read.trace;
   if (const double start_s = analysis::start_shift_s(simulated, trace); start_s != 0.0) {
     log.read.notes.push_back(fmt::format(
-        "the log's clock starts at {:.10g} s; times are counted from the log's first row", -start_s));
+        "the log's clock starts at {:.10g} s; times are counted from the log's first row. If that row is later than the run's start, give --shift",
+        -start_s));
     for (double& t : trace.values.front()) t += start_s;
   }
   const double period_s = run.scenario.pwm.period_s;
-  log.found.shift_s =
-      log.shift_s.value_or(analysis::best_shift_s(simulated, trace, 20.0 * period_s, period_s / 20.0));
+  const double most_s = 20.0 * period_s, step_s = period_s / 20.0;
+  log.found.shift_s = log.shift_s.value_or(analysis::best_shift_s(simulated, trace, most_s, step_s));
+  if (!log.shift_s && std::fabs(log.found.shift_s) > most_s - 1.5 * step_s)
+    log.read.notes.push_back(fmt::format(
+        "no larger move than {:.4g} s, 20 PWM periods, was tried, and the best one is the largest: the clocks may differ by more; give --shift",
+        most_s));
   base::Result<analysis::Overlay> overlay = analysis::overlay(log.name, simulated, trace, log.found.shift_s);
   if (!overlay) return overlay.problems();
   for (const auto& [column, reason] : overlay->left_out) log.read.not_used.push_back({column, reason});

@@ -46,6 +46,7 @@ class Audit {
   /// Adds a segment whose energies are already computed.
   [[gnu::always_inline]] void take(const Plant<Real>& plant, const SegmentEnergy<Real>& e);
   EnergyBook energy() const;
+  double copper_J() const { return static_cast<double>(supplied_copper_.value[1]); }
   const Laws& laws() const { return laws_; }
 
  private:

@@ -3,6 +3,7 @@
 """[believed] and offset_deg on the command line: settings, the axis of a plan, design, and an exported header."""
 import json
 import math
+import re
 import unittest
 
 from program import SOURCE, ProgramTest
@@ -42,11 +43,48 @@ class Believed(ProgramTest):
         told = self.run_program("design", "--scenario", str(GALLERY / "belief-inductance.toml"), code=None).stdout
         self.assertIn("L = 0.572 mH", told)
 
+    def design(self, name, *replaced, code=None):
+        """Of a scenario of the gallery, with a part of its text replaced."""
+        text = (GALLERY / f"{name}.toml").read_text()
+        if replaced:
+            self.assertIn(replaced[0], text)
+            text = text.replace(*replaced)
+        (self.path / "mine.toml").write_text(text)
+        return self.run_program("design", "--scenario", "mine.toml", code=code).stdout
+
+    def test_a_field_oriented_design_judges_the_motor_itself(self):
+        """No torque in the mean, torque of the wrong sign, an unstable loop: not usable, as the run shows."""
+        for name, *replaced in (("belief-offset-past-90",), ("belief-pole-pairs-encoder",),
+                                ("belief-inductance", "value = 0.572", "value = 3")):
+            self.assertIn("NOT USABLE: ", self.design(name, *replaced, code=1).splitlines()[0], name)
+        for name in ("belief-offset", "belief-torque-constant", "belief-resistance"):
+            self.assertRegex(self.design(name, code=0).splitlines()[0], r"^usable, \d+ warning", name)
+        self.assertIn("on the motor itself the current loop overshoots", self.design("belief-resistance", code=0))
+        right = self.design("belief-offset", "[pwm]", "[believed]\nsensor_offset_deg = 27\n\n[pwm]", code=0)
+        self.assertEqual(right.splitlines()[0], "good")
+        self.assertNotIn("the drive believes", right)
+
+    def test_limits_by_the_bus_are_the_motors(self):
+        """U/sqrt 3 over the magnet of the motor, whatever is believed; the torque of the highest current is twice the believed limit."""
+        told = self.design("belief-torque-constant", code=0)
+        at = {name: float(re.search(rf"\n  {re.escape(name)} +([\d.]+)", told).group(1)) for name in ("w_0", "K_q i_q")}
+        e = 33.5e-3 / 1.6539867  # V s, peak of a phase
+        self.assertAlmostEqual(at["w_0"] / (24 / math.sqrt(3) / e), 1, delta=1e-4)
+        self.assertAlmostEqual(at["K_q i_q"], 0.2, delta=1e-4)
+        self.assertRegex(told, r"\nmaxon .*psi = 0\.00253176 V s.*\nthe drive believes .*psi = 0\.00126588 V s")
+
+    def test_a_scenario_may_have_the_name_of_its_motor(self):
+        self.run_program("design", "teknic-m2310p", "--quick", "--toml", "teknic-m2310p.toml", code=None)
+        told = self.run_program("run", "teknic-m2310p.toml", code=None)
+        self.assertNotIn("is a scenario, not a motor file", told.stdout + told.stderr)
+        self.assertIn("experiment", told.stdout)
+
     def test_a_header_has_the_beliefs(self):
         def header(name, *settings):
             words = [word for setting in settings for word in ("--set", setting)]
             return self.run_program("export", "header", str(GALLERY / f"{name}.toml"), "--despite", "a test", *words, code=None).stdout
         self.assertRegex(header("belief-pole-pairs-hall"), r"uint8_t pole_pairs = 12;")
+        self.assertRegex(header("belief-pole-pairs-hall"), r"// motor .*: 8 pole pairs, .*\n// believed +12 pole pairs, ")
         offset = header("belief-offset", "believed.sensor_offset_deg=90")
         self.assertIn("sensor_offset = 0x40000000u;", offset)
         self.assertNotIn("sensor_offset =", header("belief-offset"))

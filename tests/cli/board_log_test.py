@@ -3,6 +3,7 @@
 """sixstep run --compare LOG: the trace of a run, converted to the units of a board and with a wrong clock, agrees
 with the run."""
 import csv
+import math
 import re
 import unittest
 
@@ -92,8 +93,11 @@ class LogsOfOthers(LogTest):
 
     def setUp(self):
         super().setUp()
-        (self.path / "run.toml").write_text(RUN)
-        self.run_program("run", "run.toml", "--csv", "trace.csv", "--quiet")
+        self.record(RUN)
+
+    def record(self, scenario):
+        (self.path / "run.toml").write_text(scenario)
+        self.run_program("run", "run.toml", "--csv", "trace.csv", "--quiet", "--force")
         with open(self.path / "trace.csv", encoding="utf-8") as file:
             self.rows = [{key: float(value) for key, value in row.items()}
                          for row in csv.DictReader(line for line in file if not line.startswith("#"))][:-1]
@@ -141,6 +145,24 @@ class LogsOfOthers(LogTest):
         text = self.expect_right("--columns", "time=ms_today/1000,speed=erpm*2*pi/60/15,i_m=current_motor")
         self.assertIn("the log's clock starts at 36000 s, so that times are counted from its first row", text)
         self.assertIn("not used: input_voltage, temp_mos_max, current_in, d_axis_current, q_axis_current, duty_cycle, tacho_meter (not named)", text)
+
+    def test_vesc_in_reverse(self):
+        """Its motor current in blocks is positive while the motor drives, torque times speed above 0."""
+        self.record(RUN.replace("value = 0.4", "value = -0.4"))
+        head = "ms_today;input_voltage;current_motor;erpm;duty_cycle;\n"
+        self.log(head, lambda n, r: f"{1e3 * r['t_s']:.0f};36.00;{math.copysign(1, r['i_m_A'] * r['speed_rad_s']) * abs(r['i_m_A']):.2f};{r['speed_rad_s'] * RPM * PAIRS:.1f};-0.400;\n")
+        text = self.expect_right(columns=("speed_rad_s", "i_m_A", "bus_V", "duty"))
+        self.assertIn("rows with erpm below 0, i_m = -current_motor", text)
+
+    def test_a_move_at_the_end_of_its_range_is_told(self):
+        """A clock that is 1.2 ms late, where 20 PWM periods are 0.6 ms."""
+        self.log("t [ms],speed [rpm],i_m [mA]\n",
+                 lambda n, r: f"{1e3 * r['t_s'] - 1.2:.1f},{r['speed_rad_s'] * RPM:.1f},{1e3 * r['i_m_A']:.2f}\n")
+        told = "was tried, and the best one is the largest: the clocks may differ by more; give --shift"
+        self.assertIn(told, self.compared()[1])
+        found, text = self.compared("--shift", "0.0012")
+        self.assertNotIn(told, text)
+        self.assertLess(found["i_m_A"][1], 0.3e-3, text)
 
     def test_ardupilot(self):
         self.log("TimeUS,Instance,RPM,RawRPM,Volt,Curr,Temp\n",

@@ -223,6 +223,23 @@ TEST(Thermal, PermissibleTime) {
   EXPECT_LT(*design::permissible_seconds(flat, {560.0, 0.0, 25.0}), 1.0) << "stall of the 251601";
 }
 
+/// From the temperatures on the way, what is left of the time is left, also after a pause that let the winding cool.
+TEST(Thermal, PermissibleTimeFromAStart) {
+  const design::Heating heating{40.0, 1.0, 40.0};
+  const double whole = *design::permissible_seconds(flat, heating);
+  for (const double part : {0.1, 0.6, 0.99}) {
+    const auto there = design::temperatures_after(flat, heating, {40.0, 40.0}, part * whole);
+    EXPECT_NEAR(*design::permissible_seconds(flat, heating, there), (1 - part) * whole, 1e-9 * whole) << part;
+  }
+  // A hot winding on a cold housing cools first, and is too hot in the end.
+  const double low = 1.02 * design::continuous_copper_W(flat, 0.0, 25.0);
+  const design::Temperatures hot{124.0, 25.0};
+  const double late = *design::permissible_seconds(flat, {low, 0.0, 25.0}, hot);
+  EXPECT_GT(late, 100.0);
+  EXPECT_NEAR(design::temperatures_after(flat, {low, 0.0, 25.0}, hot, late).winding_degC, 125.0, 1e-6);
+  EXPECT_EQ(design::permissible_seconds(flat, heating, {125.0, 40.0}), 0.0);
+}
+
 TEST(Thermal, ASheetWithoutItsThermalLinesSaysWhichAreMissing) {
   design::Sheet sheet = sixstep::testing::maxon_sheet();
   base::Result<ThermalModel> none = design::thermal_model(sheet);

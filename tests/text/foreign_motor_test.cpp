@@ -227,6 +227,42 @@ TEST(ForeignMotor, AFormulaOfMatlabIsTakenWhereItIsAProduct) {
   EXPECT_NEAR(model_of(by_formula).K_e_V_s, K_e, 1e-9 * K_e) << "the constant comes from Ke then";
 }
 
+TEST(ForeignMotor, SeveralStatementsOfMatlabInALineCount) {
+  const std::string packed = fmt::format(
+      "pmsm.p = {}; pmsm.Rs = {}, pmsm.Ld = {}; pmsm.Lq = {}; pmsm.FluxPM = {}; pmsm.x = [1; 2, 3]; pmsm.J = 9e-5;",
+      pairs, R, L_d, L_q, psi);
+  const design::Sheet sheet = sheet_of(packed);
+  EXPECT_NEAR(sheet.d_axis_inductance_mH->value, 1e3 * L_d, 1e-11);
+  EXPECT_NEAR(sheet.q_axis_inductance_mH->value, 1e3 * L_q, 1e-11);
+  EXPECT_NEAR(sheet.resistance_ohm->value, R, 1e-12);
+  EXPECT_NEAR(model_of(packed).K_e_V_s, K_e, 1e-9 * K_e);
+}
+
+TEST(ForeignMotor, ASketchMaySetTheMotorsMembers) {
+  const std::vector<std::string> answers{"resistance=phase"};
+  const std::string braces = fmt::format(
+      "BLDCMotor m{{{}}};\nvoid setup() {{\n  m.phase_resistance = {};\n  m.phase_inductance={};\n}}\n",
+      pairs, R, L_q);
+  const auto text = motor_of_foreign_file("a.ino", braces, "m", answers);
+  ASSERT_TRUE(text) << to_string(text.problems()[0]);
+  EXPECT_THAT(*text, HasSubstr(fmt::format("resistance_ohm = {{ value = {}, frame = \"phase\"", R)));
+  EXPECT_THAT(*text, HasSubstr("inductance_uH = { value = 24.4"));
+  EXPECT_THAT(told("class Own : public BLDCMotor { int pole_pairs = 7; };"),
+              HasSubstr("has no value of a motor"));
+}
+
+TEST(ForeignMotor, WhatIsTakenForAnotherIsTold) {
+  const auto one_axis = motor_of_foreign_file(
+      "a.cfg", "motor.poles 14\nmotor.resistance_ohm 0.05\nmotor.inductance_d_H 2e-5\nmotor.v_per_hz 0.2\n",
+      "m");
+  ASSERT_TRUE(one_axis);
+  EXPECT_THAT(*one_axis, HasSubstr("has only motor.inductance_d_H: taken for both axes"));
+  EXPECT_THAT(*one_axis, HasSubstr("motor.v_per_hz is of a firmware before 0x010a"));
+  const auto both = motor_of_foreign_file("a.cfg", moteus(), "m");
+  EXPECT_THAT(*both, ::testing::Not(HasSubstr("taken for both")));
+  EXPECT_THAT(*both, ::testing::Not(HasSubstr("v_per_hz")));
+}
+
 /// Every key of the table is a key of a motor file.
 TEST(ForeignMotor, TheTableNamesKeysOfMotorFiles) {
   for (const ForeignKind kind : {ForeignKind::vesc, ForeignKind::odrive, ForeignKind::moteus,

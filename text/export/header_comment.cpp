@@ -77,7 +77,15 @@ bool states_range(const design::OperatingRange& r) {
 }
 
 std::string header_comment(const ConfigHeader& w, const study::Compiled& c) {
-  const sixstep::plant::Machine& m = c.believed.motor.machine;
+  const auto motor_line = [](const design::MotorModel& motor, double J_kg_m2) {
+    const sixstep::plant::Machine& m = motor.machine;
+    return fmt::format("{} pole pairs, terminal R = {} ohm, L = {} H, K_t = {} N m/A; J = {} kg m2",
+                       static_cast<int>(m.pole_pairs), sixstep::base::six_digits(2 * m.R_ohm),
+                       sixstep::base::six_digits(2 * m.L_H), sixstep::base::six_digits(motor.K_t_Nm_A),
+                       sixstep::base::six_digits(J_kg_m2));
+  };
+  const std::string itself = motor_line(c.motor, c.shaft.J_kg_m2),
+                    believed = motor_line(c.believed.motor, c.believed.shaft.J_kg_m2);
   std::string text = "// clang-format off\n";
   text += fmt::format("// Made by sixstep {}. Change the scenario, not this file:\n//   {}\n//\n",
                       SIXSTEP_VERSION, comment_text(w.command));
@@ -85,12 +93,8 @@ std::string header_comment(const ConfigHeader& w, const study::Compiled& c) {
       "// C++20, which avr-gcc 5 and 7 (Debian 12, the Arduino IDE) lack. For the AVR use clang 19 or later.\n//\n";
   text += comment("scenario", w.scenario.title.empty() ? "(no title)" : w.scenario.title);
   if (!w.scenario.notes.empty()) text += comment("notes", w.scenario.notes);
-  text += comment(
-      "motor", fmt::format("{}: {} pole pairs, terminal R = {} ohm, L = {} H, K_t = {} N m/A; J = {} kg m2",
-                           w.scenario.sheet.name, static_cast<int>(m.pole_pairs),
-                           sixstep::base::six_digits(2 * m.R_ohm), sixstep::base::six_digits(2 * m.L_H),
-                           sixstep::base::six_digits(c.believed.motor.K_t_Nm_A),
-                           sixstep::base::six_digits(c.believed.shaft.J_kg_m2)));
+  text += comment("motor", fmt::format("{}: {}", w.scenario.sheet.name, itself));
+  if (believed != itself) text += comment("believed", believed + "; the constants below are for this motor");
   for (const study::LoopGains& g : c.gains) text += comment(g.loop, derivation(g, w.scenario.pwm.period_s));
   text +=
       "// Gains are per control period, pwm_period_ps. Speed is mechanical, current positive into the "

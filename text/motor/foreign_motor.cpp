@@ -51,6 +51,9 @@ class ForeignMotor {
     add_inductances();
     add_keys({"flux_linkage_mWb", "torque_constant_Nm_A", "speed_constant_rpm_V", "back_emf_constant_V_krpm"},
              "flux_linkage_mWb");
+    if (find("motor.v_per_hz") && !find("motor.Kv"))
+      body_ += wrapped_comment(
+          "motor.v_per_hz is of a firmware before 0x010a, and is not taken over: give the motor's Kv");
     add_keys({"inertia_kgm2"}, "inertia_kgm2");
     add_keys({"viscous_friction_Nm_s", "nominal_current_A", "max_speed_rpm"}, "");
     check_time_constant();
@@ -242,6 +245,9 @@ class ForeignMotor {
     if (!Ld) d = q, Ld = Lq;
     if (!Lq) q = d, Lq = Ld;
     inductance_H_ = L ? L : Ld;
+    // SimpleFOC's own constructor takes one inductance for both axes.
+    if (!L && d != nullptr && d == q && tool_.kind != ForeignKind::simple_foc)
+      body_ += wrapped_comment(fmt::format("{} has only {}: taken for both axes", visible(file_), d->name));
     if (L) {
       add_mean(*mean, *L, find(axes.difference));
     } else if (Ld && *Ld == *Lq) {

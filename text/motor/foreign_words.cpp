@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -51,6 +52,18 @@ void for_each_line(std::string_view text, std::string_view mark, const Each& eac
     each(trimmed(row.substr(0, std::min(row.find(mark), row.size()))), line);
     text.remove_prefix(std::min(end + 1, text.size()));
   }
+}
+
+/// Where the first of several statements in a line of MATLAB ends. Brackets hold rows and arguments together.
+std::size_t end_of_statement(std::string_view row) {
+  int open = 0;
+  for (std::size_t n = 0; n < row.size(); ++n) {
+    const char c = row[n];
+    if (c == '(' || c == '[' || c == '{') ++open;
+    if (c == ')' || c == ']' || c == '}') --open;
+    if (open <= 0 && (c == ';' || c == ',')) return n;
+  }
+  return row.size();
 }
 
 /// Splits "axis0.motor.config.pole_pairs" into its part and its last word.
@@ -179,6 +192,23 @@ std::string variable_before(std::string_view text, std::size_t name, std::size_t
   return std::string(between);
 }
 
+/// "motor.phase_resistance = 0.23;" after the constructor, which it replaces.
+void add_members(std::string_view text, const std::string& variable, std::size_t from, ForeignWords& out) {
+  constexpr std::pair<std::string_view, std::string_view> members[] = {
+      {".pole_pairs", "pp"}, {".phase_resistance", "R"}, {".phase_inductance", "Lq"}};
+  if (variable.empty()) return;
+  for (const auto& [member, name] : members) {
+    const std::string path = variable + std::string(member);
+    for (std::size_t at = text.find(path, from); at != std::string_view::npos; at = text.find(path, at + 1)) {
+      std::string_view rest = trimmed(text.substr(at + path.size()));
+      const bool whole = at == 0 || !std::isalnum(static_cast<unsigned char>(text[at - 1]));
+      if (!whole || !rest.starts_with('=') || rest.starts_with("==")) continue;
+      rest = rest.substr(1, std::min(rest.find(';'), rest.size()) - 1);
+      out.push_back({std::string(name), variable, std::string(trimmed(rest)), LineCount(text).at(at)});
+    }
+  }
+}
+
 }  // namespace
 
 base::Result<ForeignWords> words_of_xml(std::string_view text) {
@@ -222,10 +252,13 @@ ForeignWords words_of_lines(std::string_view text) {
 ForeignWords words_of_matlab(std::string_view text) {
   ForeignWords out;
   for_each_line(text, "%", [&out](std::string_view row, std::size_t line) {
-    const std::size_t equals = row.find('='), dot = row.find('.');
-    if (equals == std::string_view::npos || dot > equals) return;
-    out.push_back(word_of_path(trimmed(row.substr(0, equals)),
-                               trimmed(row.substr(equals + 1, row.find(';') - equals - 1)), line));
+    while (!row.empty()) {
+      const std::size_t end = end_of_statement(row), equals = row.find('='), dot = row.find('.');
+      if (equals < end && dot < equals)
+        out.push_back(word_of_path(trimmed(row.substr(0, equals)),
+                                   trimmed(row.substr(equals + 1, end - equals - 1)), line));
+      row.remove_prefix(std::min(end + 1, row.size()));
+    }
   });
   return out;
 }
@@ -239,11 +272,12 @@ base::Result<ForeignWords> words_of_sketch(std::string_view given) {
   ForeignWords out;
   for (std::size_t at = text.find(constructor); at != std::string_view::npos;
        at = text.find(constructor, at + 1)) {
-    const std::size_t bracket = text.find_first_of("(;{}", at);
-    if (bracket == std::string_view::npos || text[bracket] != '(') continue;
-    const std::size_t end = text.find_first_of(");", bracket);
-    if (end == std::string_view::npos || text[end] == ';') return cut_off("bracket");
+    const std::size_t bracket = text.find_first_of("(;{})", at);
+    if (bracket == std::string_view::npos || (text[bracket] != '(' && text[bracket] != '{')) continue;
     const std::string variable = variable_before(text, at, bracket);
+    if (text[bracket] == '{' && variable.empty()) continue;  // a class
+    const std::size_t end = text.find_first_of(");}", bracket);
+    if (end == std::string_view::npos || text[end] == ';') return cut_off("bracket");
     std::string_view rest = text.substr(bracket + 1, end - bracket - 1);
     for (const std::string_view name : names) {
       const std::size_t comma = std::min(rest.find(','), rest.size());
@@ -251,6 +285,7 @@ base::Result<ForeignWords> words_of_sketch(std::string_view given) {
         out.push_back({std::string(name), variable, std::string(value), lines.at(at)});
       rest.remove_prefix(std::min(comma + 1, rest.size()));
     }
+    add_members(text, variable, end, out);
     at = end;
   }
   return out;

@@ -143,6 +143,7 @@ class LogReader {
     if (!times) return times.problems();
     out_.trace = {.columns = {study::all_columns().front()}, .values = {std::move(times->t_s)}};
     add_named(times->left_out);
+    turn_in_reverse();
     if (formulas_.empty()) add_by_headings(*times);
     for (std::string& note : what_the_board_says(r_)) out_.notes.push_back(std::move(note));
     if (!problems_.empty()) return problems_;
@@ -154,6 +155,24 @@ class LogReader {
   }
 
  private:
+  /// A VESC's motor current in blocks is positive while the motor drives, in both directions.
+  void turn_in_reverse() {
+    if (!known_ || !known_->name.starts_with("a VESC")) return;
+    std::vector<double>*i_m = nullptr, *speed = nullptr;
+    for (std::size_t n = 0; n < out_.trace.columns.size(); ++n) {
+      if (out_.trace.columns[n].name == "i_m_A") i_m = &out_.trace.values[n];
+      if (out_.trace.columns[n].name == "speed_rad_s") speed = &out_.trace.values[n];
+    }
+    if (!i_m || !speed) return;
+    std::size_t turned = 0;
+    for (std::size_t n = 0; n < i_m->size(); ++n)
+      if ((*speed)[n] < 0.0) (*i_m)[n] = -(*i_m)[n], ++turned;
+    if (turned > 0)
+      out_.notes.push_back(fmt::format(
+          "in {} rows with erpm below 0, i_m = -current_motor: it is positive while the motor drives",
+          turned));
+  }
+
   base::Problems read_formulas() {
     for (const std::string& text : formulas_) {
       const base::Result<ColumnFormula> formula = column_formula(text);

@@ -12,6 +12,7 @@
 #include "sixstep/design/loops/design_warnings.hpp"
 #include "sixstep/design/sheet/motion.hpp"
 #include "sixstep/study/measure/figures.hpp"
+#include "sixstep/study/scenario/believed_motor.hpp"
 #include "sixstep/study/scenario/choices.hpp"
 #include "text/escape/escape.hpp"
 #include "text/results/design_loops_text.hpp"
@@ -50,9 +51,18 @@ std::string motor_words(const sixstep::design::MotorModel& m) {
 
 std::string designed_motor_line(const DriveDesign& d, const study::Scenario& s) {
   const std::string chopping(sixstep::base::word(sixstep::study::chopping_choices, d.spec.chopping));
-  return fmt::format("{} on {} V: {}\ncontrol and PWM period {}, {} chopping, a command acts {}\n",
+  const std::string believed = motor_words(d.motor);
+  std::string itself = believed;
+  auto motor = sixstep::design::motor_model(s.sheet);
+  const auto drives = sixstep::study::believed_motor(s);
+  if (motor && drives && sixstep::study::believes_a_motor(s.believed)) {
+    motor->shaft.J_kg_m2 += d.motor.shaft.J_kg_m2 - drives->shaft.J_kg_m2;  // the load
+    itself = motor_words(*motor);
+  }
+  return fmt::format("{} on {} V: {}\n{}control and PWM period {}, {} chopping, a command acts {}\n",
                      visible(s.sheet.name.empty() ? s.motor : s.sheet.name),
-                     sixstep::base::six_digits(d.bus_V), motor_words(d.motor),
+                     sixstep::base::six_digits(d.bus_V), itself,
+                     believed == itself ? "" : "the drive believes " + believed + "\n",
                      quantity_text(d.spec.period_s, "s"), chopping,
                      sixstep::design::late_words(d.spec.late_periods()) +
                          (d.spec.sampled_in_middle ? ", sampled in the middle of a period" : ""));

@@ -24,18 +24,24 @@ std::string winding(const sixstep::design::FieldMachine& m) {
                      sixstep::base::six_digits(1e3 * m.L_d_H), sixstep::base::six_digits(1e3 * m.L_q_H));
 }
 
+std::string machine_words(const sixstep::design::FieldMachine& m, const sixstep::plant::Shaft& shaft) {
+  return fmt::format("{}, p = {}, psi = {} V s, J = {} g cm2, B = {} N m s", winding(m),
+                     sixstep::base::six_digits(m.pole_pairs),
+                     sixstep::base::six_digits(m.magnet_V_s / m.pole_pairs),
+                     sixstep::base::six_digits(1e7 * shaft.J_kg_m2), sixstep::base::six_digits(shaft.B_Nm_s));
+}
+
 std::string field_motor_line(const FieldStudy& f) {
-  const sixstep::plant::Shaft& shaft = f.design.motor.shaft;
   const study::Scenario& s = f.scenario;
-  return fmt::format(
-      "{} on {} V: {}, p = {}, psi = {} V s, J = {} g cm2, B = {} N m s\nfield-oriented, control and PWM period {}, a command acts {}\n",
-      visible(s.sheet.name.empty() ? s.motor : s.sheet.name), sixstep::base::six_digits(f.design.bus_V),
-      winding(f.machine), sixstep::base::six_digits(f.machine.pole_pairs),
-      sixstep::base::six_digits(f.machine.magnet_V_s / f.machine.pole_pairs),
-      sixstep::base::six_digits(1e7 * shaft.J_kg_m2), sixstep::base::six_digits(shaft.B_Nm_s),
-      quantity_text(f.design.spec.period_s, "s"),
-      sixstep::design::late_words(f.design.spec.late_periods()) +
-          (f.design.spec.sampled_in_middle ? ", sampled in the middle of a period" : ""));
+  const std::string itself = machine_words(f.simulated, f.simulated_shaft),
+                    believed = machine_words(f.machine, f.design.motor.shaft);
+  return fmt::format("{} on {} V: {}\n{}field-oriented, control and PWM period {}, a command acts {}\n",
+                     visible(s.sheet.name.empty() ? s.motor : s.sheet.name),
+                     sixstep::base::six_digits(f.design.bus_V), itself,
+                     believed == itself ? "" : "the drive believes " + believed + "\n",
+                     quantity_text(f.design.spec.period_s, "s"),
+                     sixstep::design::late_words(f.design.spec.late_periods()) +
+                         (f.design.spec.sampled_in_middle ? ", sampled in the middle of a period" : ""));
 }
 
 std::string table(const char* head, const std::vector<DerivationStep>& steps) {

@@ -136,8 +136,9 @@ base::Result<DesignStudy> studied(const DesignOrder& order) {
   if (!outcome) return outcome.problems();
   s.outcome = std::move(*outcome);
   if (const auto compiled = study::compile(s.scenario))
-    s.beliefs = study::belief_costs(s.scenario, *compiled);
-  // A quick search has already lowered the gain until no motor within the tolerances overshoots.
+    for (study::BeliefCost& cost : study::belief_costs(s.scenario, *compiled))
+      s.beliefs.push_back(std::move(cost.text));
+  // A quick search has already lowered the gain until it holds for all motors within the tolerances.
   if (!order.tolerances.empty() && !(s.position && order.gain.quick))
     s.robustness = robustness(s.design, s.scenario, order.tolerances, order.for_each, order.keep_going);
   s.ideal_swing_rad_s = ideal_swing(s, order.keep_going);

@@ -29,13 +29,13 @@ using design::LoopDesign;
 double circle_V(const FieldStudy& f) { return f.design.bus_V / std::sqrt(3.0); }
 
 /// Speed in rad/s at which the magnet's back-EMF equals the radius of the voltage circle.
-double base_speed_rad_s(const FieldStudy& f) { return circle_V(f) / f.machine.magnet_V_s; }
+double base_speed_rad_s(const FieldStudy& f) { return circle_V(f) / f.simulated.magnet_V_s; }
 
 /// |v|^2 = (R i + w p psi)^2 + (w p L_q i)^2 = U_s^2/3, solved for the speed w; i: current i_q, other symbols
 /// of model.md 7. Returns 0 if R i exceeds the circle's radius.
 double speed_for_current_rad_s(const FieldStudy& f, double i_q_A) {
-  const double e = f.machine.magnet_V_s, x = f.machine.pole_pairs * f.machine.L_q_H * i_q_A,
-               r = f.machine.R_ohm * i_q_A;
+  const design::FieldMachine& m = f.simulated;
+  const double e = m.magnet_V_s, x = m.pole_pairs * m.L_q_H * i_q_A, r = m.R_ohm * i_q_A;
   const double a = e * e + x * x, half_b = r * e, c = r * r - circle_V(f) * circle_V(f);
   return c < 0 ? (std::sqrt(half_b * half_b - a * c) - half_b) / a : 0.0;
 }
@@ -152,10 +152,11 @@ void add_limits(const control::FieldDriveConfig<double>& c, FieldStudy& f) {
                         I, "A"});
     f.limits.push_back(
         {"w(i_q)", "highest speed at which the circle drives i_q", speed_for_current_rad_s(f, I), "rad/s"});
-    f.limits.push_back({"K_q i_q", "torque of this current", I * torque_per_q_A(f.machine), "N m"});
+    f.limits.push_back({"K_q i_q", "torque of this current", I * torque_per_q_A(f.simulated), "N m"});
   }
   if (!(c.weakening.most_A > 0)) return;
-  const double left = f.machine.magnet_V_s - f.machine.pole_pairs * f.machine.L_d_H * c.weakening.most_A;
+  const double left =
+      f.simulated.magnet_V_s - f.simulated.pole_pairs * f.simulated.L_d_H * c.weakening.most_A;
   if (left > 0)
     f.limits.push_back({"w_1", "m U_s/(sqrt 3 p (psi - L_d I)): weakened, without a load",
                         c.weakening.part * circle_V(f) / left, "rad/s"});
@@ -167,9 +168,11 @@ std::string slower(const std::string& name) {
   return "lower control.field.bandwidth_Hz or the gains of control.current";
 }
 
-void look_at_loop(const LoopDesign& loop, FieldStudy& f) {
+/// `on`: "" or on which motor.
+void look_at_loop(const LoopDesign& loop, const std::string& on, FieldStudy& f) {
   const auto warn = [&](const std::string& what, bool grave) {
-    f.warnings.push_back({"the " + loop.name + " loop " + what, slower(loop.name), grave});
+    f.warnings.push_back({on + "the " + loop.name + " loop " + what,
+                          on.empty() ? slower(loop.name) : "correct [believed]", grave});
   };
   const design::LoopFigures& built = loop.built;
   const bool sensed = built.phase_rad != loop.figures.phase_rad;
@@ -183,10 +186,10 @@ void look_at_loop(const LoopDesign& loop, FieldStudy& f) {
   else if (built.sensitivity_peak > design::greatest_sensitivity)
     warn("amplifies disturbances up to " + base::three_digits(built.sensitivity_peak) + " times", false);
   if (loop.name != "position" && std::isfinite(loop.step.overshoot) && loop.step.overshoot > 0.1)
-    f.warnings.push_back({"the " + loop.name + " loop overshoots a step by " +
-                              base::three_digits(100.0 * loop.step.overshoot) +
-                              " %, because of the zero of its PI",
-                          "limit how fast the setpoint rises (control.slew)", false});
+    f.warnings.push_back(
+        {on + "the " + loop.name + " loop overshoots a step by " +
+             base::three_digits(100.0 * loop.step.overshoot) + " %, because of the zero of its PI",
+         on.empty() ? "limit how fast the setpoint rises (control.slew)" : "correct [believed]", false});
 }
 
 void look_at_separation(FieldStudy& f) {
@@ -246,6 +249,25 @@ void look_at_estimator(const study::Compiled& c, double period_s, FieldStudy& f)
   }
 }
 
+/// The same gains on the simulated motor, and beliefs with which no drive works.
+void look_at_beliefs(const study::Compiled& c, FieldStudy& f) {
+  std::vector<study::BeliefCost> costs = study::belief_costs(f.scenario, c);
+  if (costs.empty()) return;
+  for (study::BeliefCost& cost : costs) {
+    if (cost.grave) f.warnings.push_back({cost.text, "correct [believed], or the mounting", true});
+    f.beliefs.push_back(std::move(cost.text));
+  }
+  FieldStudy real;
+  real.machine = f.simulated;
+  real.design.spec = f.design.spec;
+  real.design.lag = f.design.lag;
+  add_loops(c, loops_of(f.scenario, c), real);
+  for (const LoopDesign& loop : real.design.loops) look_at_loop(loop, "on the motor itself ", f);
+  if (f.warnings.empty())
+    f.warnings.push_back(
+        {"the drive is designed for wrong numbers (wrong beliefs above)", "correct [believed]", false});
+}
+
 double fastest_asked_rad_s(const study::Scenario& s) {
   if (s.control.mode != Mode::speed) return 0.0;
   double most = 0.0;
@@ -275,7 +297,8 @@ base::Result<FieldStudy> study_field(const study::Scenario& s) {
   const design::DriveLoops loops = believed_loops_of(s, *c);
   FieldStudy f;
   f.scenario = s;
-  f.beliefs = study::belief_costs(s, *c);
+  f.simulated = design::field_machine(c->motor, s.sheet);
+  f.simulated_shaft = c->shaft;
   f.machine = design::field_machine(c->believed.motor, study::believed_sheet(s));
   design::DriveDesign& d = f.design;
   d.spec = spec_of(s);
@@ -290,7 +313,8 @@ base::Result<FieldStudy> study_field(const study::Scenario& s) {
   add_loops(*c, loops, f);
   add_axes(*c->field, f);
   add_limits(*c->field, f);
-  for (const LoopDesign& loop : d.loops) look_at_loop(loop, f);
+  for (const LoopDesign& loop : d.loops) look_at_loop(loop, "", f);
+  look_at_beliefs(*c, f);
   look_at_separation(f);
   look_at_estimator(*c, s.pwm.period_s, f);
   look_at_bus(*c->field, fastest_asked_rad_s(s), f);

@@ -13,7 +13,9 @@ namespace sixstep::analysis {
 
 struct FieldStudy {
   study::Scenario scenario;
-  design::FieldMachine machine;
+  design::FieldMachine machine;    ///< as the drive believes it
+  design::FieldMachine simulated;  ///< the motor itself, to which the limits by the bus belong
+  plant::Shaft simulated_shaft;    ///< with the load
   /// The loops from the inside out: "current d" and "current q" if the rotor is salient, else "current". Also
   /// bus, torque limit with its current, and the speed's sensor. Members for a driven pair stay empty.
   design::DriveDesign design;

@@ -249,8 +249,8 @@ void add_speed_step(DriveDesign& d, double crossover) {
   d.speed_step_V = d.speed_step_part * d.current_at_full_torque_A * std::fabs(d.loops[0].gains.d1);
   d.high_speed_left_V = headroom_V(d.motor, d.bus_V, d.nominal_current_A / 2, d.high_speed_rad_s);
   if (!(d.speed_step_rad_s > 0.0)) return;
-  d.sensing.push_back(
-      {"w_high", "0.9 of the speed where \"voltage left\" ends, two digits", d.high_speed_rad_s, "rad/s"});
+  d.sensing.push_back({"w_high", "0.9 of the speed where \"voltage left\" ends, rounded down to two digits",
+                       d.high_speed_rad_s, "rad/s"});
   d.sensing.push_back(
       {"dw_high", "one step of the measured speed at this speed", d.speed_step_rad_s, "rad/s"});
   d.sensing.push_back({"d1 dw", "change of the torque reference by that step, as a part of the torque limit",

@@ -100,15 +100,23 @@ Temperatures temperatures_after(const ThermalModel& m, const Heating& h, const T
   return {h.ambient_degC + end.winding, h.ambient_degC + end.housing};
 }
 
-std::optional<double> permissible_seconds(const ThermalModel& m, const Heating& h) {
-  if (h.ambient_degC >= m.max_winding_degC) return 0.0;
+std::optional<double> permissible_seconds(const ThermalModel& m, const Heating& h,
+                                          const Temperatures& start) {
+  if (std::fmax(h.ambient_degC, start.winding_degC) >= m.max_winding_degC) return 0.0;
   const std::optional<Temperatures> rest = steady_temperatures(m, h);
   if (rest && rest->winding_degC <= m.max_winding_degC) return {};
-  // Starting at ambient temperature, both bodies only warm up: the slopes are positive at the start, and the
-  // couplings of the network are positive.
+  // A sum of two exponentials has one extreme at most: a winding that ends above its limit may cool down first, and
+  // passes the limit once.
+  const auto reaches = [&](double t) {
+    return temperatures_after(m, h, start, t).winding_degC >= m.max_winding_degC;
+  };
   double late = m.winding_s;
-  while (winding_after(m, h, late) < m.max_winding_degC) late *= 2;
-  return threshold(0.0, late, [&](double t) { return winding_after(m, h, t) >= m.max_winding_degC; });
+  while (!reaches(late)) late *= 2;
+  return threshold(0.0, late, reaches);
+}
+
+std::optional<double> permissible_seconds(const ThermalModel& m, const Heating& h) {
+  return permissible_seconds(m, h, {h.ambient_degC, h.ambient_degC});
 }
 
 Temperatures at_the_limit(const ThermalModel& m, double housing_W, double ambient_degC) {

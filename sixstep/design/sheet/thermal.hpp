@@ -63,8 +63,10 @@ std::optional<Temperatures> steady_temperatures(const ThermalModel& model, const
 Temperatures temperatures_after(const ThermalModel& model, const Heating& heating, const Temperatures& start,
                                 double seconds);
 
-/// Time, s, until the winding reaches its limit, for a motor that starts at ambient temperature. Empty: it
-/// never reaches the limit. 0: the ambient temperature is already at the limit.
+/// Time, s, until the winding reaches its limit, from `start` on, or from ambient temperature. Empty: it settles at
+/// the limit or below. 0: it is already at the limit, or the ambient temperature is.
+std::optional<double> permissible_seconds(const ThermalModel& model, const Heating& heating,
+                                          const Temperatures& start);
 std::optional<double> permissible_seconds(const ThermalModel& model, const Heating& heating);
 
 /// Steady temperatures with the winding at its limit and with `housing_W` of direct heat into the housing.

@@ -41,15 +41,20 @@ std::optional<WorseEnds> at_worse_ends(const Sheet& s) {
 }
 
 base::Result<WithstandTimes> withstand_times(const Sheet& s, const Heating& heating) {
+  return withstand_times(s, heating, {heating.ambient_degC, heating.ambient_degC});
+}
+
+base::Result<WithstandTimes> withstand_times(const Sheet& s, const Heating& heating,
+                                             const Temperatures& start) {
   const base::Result<ThermalModel> model = thermal_model(s);
   if (!model) return model.problems();
-  WithstandTimes out{.by_values = permissible_seconds(*model, heating),
+  WithstandTimes out{.by_values = permissible_seconds(*model, heating, start),
                      .by_worse_ends = {},
                      .limit_degC = model->max_winding_degC,
                      .worse_limit_degC = model->max_winding_degC};
   out.by_worse_ends = out.by_values;
   if (const std::optional<WorseEnds> worse = at_worse_ends(s)) {
-    out.by_worse_ends = permissible_seconds(worse->model, heating);
+    out.by_worse_ends = permissible_seconds(worse->model, heating, start);
     out.worse_limit_degC = worse->model.max_winding_degC;
   }
   return out;

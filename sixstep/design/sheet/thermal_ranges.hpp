@@ -20,7 +20,7 @@ struct WorseEnds {
 /// lines are incomplete, or if no range has an end worse than its value.
 std::optional<WorseEnds> at_worse_ends(const Sheet& sheet);
 
-/// Time for which a winding that starts at ambient temperature withstands a heating, s. Empty: without limit.
+/// Time for which a winding withstands a heating, s. Empty: without limit.
 struct WithstandTimes {
   std::optional<double> by_values, by_worse_ends;   ///< equal if no range has an end worse than its value
   double limit_degC = 0.0, worse_limit_degC = 0.0;  ///< the winding's limit, which may have a range too
@@ -28,7 +28,10 @@ struct WithstandTimes {
   bool differ() const { return by_values != by_worse_ends; }
 };
 
-/// A verdict on safety uses `by_worse_ends`. Problem: the sheet's thermal lines that are missing.
+/// From `start` on, or from ambient temperature. A verdict on safety uses `by_worse_ends`. Problem: the sheet's thermal
+/// lines that are missing.
+base::Result<WithstandTimes> withstand_times(const Sheet& sheet, const Heating& heating,
+                                             const Temperatures& start);
 base::Result<WithstandTimes> withstand_times(const Sheet& sheet, const Heating& heating);
 
 /// The model for a safe limit: at the worse ends if there are any, else by the values. Problems as for

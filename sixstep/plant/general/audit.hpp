@@ -12,6 +12,7 @@ class Audit {
  public:
   void segment(const Plant<Real>& plant, Real s);
   EnergyBook energy() const;
+  double copper_J() const { return static_cast<double>(copper_.value); }
   const Laws& laws() const { return laws_; }
 
  private:

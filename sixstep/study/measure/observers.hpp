@@ -8,13 +8,13 @@
 #include "sixstep/plant/general/audit.hpp"
 #include "sixstep/study/measure/device_watch.hpp"
 #include "sixstep/study/measure/digest.hpp"
-#include "sixstep/study/measure/end_watch.hpp"
 #include "sixstep/study/measure/figures.hpp"
 #include "sixstep/study/measure/iron_gauge.hpp"
 #include "sixstep/study/measure/logic_recorder.hpp"
 #include "sixstep/study/measure/recorder.hpp"
 #include "sixstep/study/measure/run_away.hpp"
 #include "sixstep/study/measure/run_watch.hpp"
+#include "sixstep/study/measure/winding_watch.hpp"
 
 namespace sixstep::study {
 
@@ -26,6 +26,8 @@ struct Audits {
   void segment(const plant::general::Plant<double>& plant, double s) { general.segment(plant, s); }
   plant::EnergyBook energy(const plant::Plant<double>&) const { return lean.energy(); }
   plant::EnergyBook energy(const plant::general::Plant<double>&) const { return general.energy(); }
+  double copper_J(const plant::Plant<double>&) const { return lean.copper_J(); }
+  double copper_J(const plant::general::Plant<double>&) const { return general.copper_J(); }
 };
 
 struct Observers {
@@ -34,7 +36,7 @@ struct Observers {
   std::optional<IronGauge> iron{};
   Digest digest{};
   RunWatch extremes{};
-  EndWatch end{};
+  WindingWatch winding{};
   Figures figures;
   std::vector<GridRecorder> grids{};
   std::optional<EventRecorder> events{}, report{};
@@ -62,8 +64,17 @@ struct Observers {
   template <class Rig>
   void look(const Rig& rig) {
     extremes.look(rig);
-    if (const double t_s = rig.now().seconds(); audit && end.wants(t_s))
-      end.look(t_s, audit->energy(rig.plant()).copper, static_cast<double>(rig.plant().state().w));
+    if (!audit) return;
+    const design::Temperatures* simulated = nullptr;
+    design::Temperatures bodies;
+    if constexpr (requires { rig.plant().heat(); })
+      if (rig.plant().heat().on()) {
+        const plant::BodyTemperatures now = rig.plant().bodies_degC(0.0);
+        bodies = {now.winding, now.housing};
+        simulated = &bodies;
+      }
+    winding.look(rig.now().seconds(), audit->copper_J(rig.plant()),
+                 static_cast<double>(rig.plant().state().w), simulated);
   }
   /// Checks often enough for a quick response to a user, and seldom enough to cost almost nothing.
   template <class Rig>

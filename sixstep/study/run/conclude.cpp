@@ -24,7 +24,7 @@ void conclude(const Scenario& scenario, const Compiled& compiled, const Observer
   };
   if (w.audit) compiled.general ? note_books(w.audit->general) : note_books(w.audit->lean);
   if (w.devices) out.devices = w.devices->losses();
-  add_remarks(scenario, compiled, w.extremes, w.end, out);
+  add_remarks(scenario, compiled, w.extremes, w.winding.finished(), out);
 }
 
 }  // namespace sixstep::study

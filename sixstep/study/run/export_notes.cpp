@@ -48,8 +48,9 @@ std::string limit_above_nominal(const Scenario& s, const design::MotorModel& mot
   if (times && !times->by_values && !times->by_worse_ends) return {};
   const bool linear = s.sheet.kind == design::MotorKind::linear;
   const std::string stands =
-      times ? withstood(*times, s.heat.ambient_degC)
-            : "; the sheet has no thermal values that say how long the winding withstands this current";
+      times
+          ? withstood(*times, start_temperatures(s.heat).winding_degC)
+          : "; without thermal values in the sheet it is not known how long the winding withstands this current";
   const std::string multiple = nominal_A > 0.0
                                    ? ", " + few_digits(most->ampere / nominal_A) +
                                          " times the nominal current of " + few_digits(nominal_A) + " A"

@@ -10,6 +10,7 @@
 #include "sixstep/base/written.hpp"
 #include "sixstep/design/sheet/thermal_ranges.hpp"
 #include "sixstep/study/check/product.hpp"
+#include "sixstep/study/measure/winding_watch.hpp"
 #include "sixstep/study/scenario/reference_waveform.hpp"
 #include "sixstep/study/scenario/supply_voltages.hpp"
 
@@ -52,7 +53,8 @@ base::Result<design::WithstandTimes> withstand_times_of(const Scenario& s, const
                                                         const MostCurrent& most) {
   const double copper_W = 2 * motor.machine.R_ohm * most.ampere * most.ampere;
   return design::withstand_times(
-      s.sheet, {.copper_W = copper_W, .housing_W = 0.0, .ambient_degC = s.heat.ambient_degC});
+      s.sheet, {.copper_W = copper_W, .housing_W = 0.0, .ambient_degC = s.heat.ambient_degC},
+      start_temperatures(s.heat));
 }
 
 namespace {

@@ -22,7 +22,7 @@ struct MostCurrent {
 std::optional<MostCurrent> most_current(const Scenario& scenario, const design::MotorModel& motor);
 
 /// How long the winding withstands the current `most` in two phases, as in six-step operation and at a
-/// blocked rotor.
+/// blocked rotor, from the scenario's start on.
 base::Result<design::WithstandTimes> withstand_times_of(const Scenario& scenario,
                                                         const design::MotorModel& motor,
                                                         const MostCurrent& most);

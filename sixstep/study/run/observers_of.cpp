@@ -31,10 +31,11 @@ Observers observers_of(const Scenario& s, const Listeners& listeners,
   Observers w{.figures = Figures(s, reference_levels(s)), .keep_going = listeners.keep_going};
   if (s.sensors.currents == rig::CurrentMeasurement::dc_link)
     w.extremes.shunt_least_duty = least_shown_duty(s);
-  w.end.duration_s = s.duration_s;
+  const design::Friction friction = design::sheet_constants(s.sheet).friction;
+  if (listeners.keep_books) w.winding = WindingWatch(s, friction);
   if (listeners.keep_books) w.audit.emplace();
   if (listeners.keep_books && tells_losses(s.bridge)) w.devices.emplace(s.bridge);
-  const design::IronDrag iron = design::sheet_constants(s.sheet).friction.iron;
+  const design::IronDrag& iron = friction.iron;
   if (listeners.keep_books && (iron.B_Nm_s > 0 || iron.coulomb_Nm > 0)) w.iron.emplace(iron);
   const std::function<void(Row)> on_record = in_metres(s, indices, listeners.on_record);
   if (on_record && s.record.events)

@@ -267,29 +267,30 @@ struct ThermalRemarks {
   }
 };
 
-ThermalRemarks thermal_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, const EndWatch& end,
-                               const Outcome& out) {
+ThermalRemarks thermal_remarks(const Scenario& s, const Compiled& c, const RunWatch& w,
+                               const WindingWatch& winding, const Outcome& out) {
   ThermalRemarks t;
   // A product drive is made for a real bridge. Scenarios with other drives are studies: export judges their
   // limits, and a remark judges the steady current at the run's end.
   if (s.control.drive == FirmwareKind::product) t.limit = limit_above_nominal(s, c.motor);
-  t.cold = on_cold_winding(s, out);
+  t.cold = on_cold_winding(s, winding);
   t.hot = on_heat(s, w, out);
-  if (t.cold.empty() && t.hot.empty()) t.kept = on_kept_current(s, end, w.winding_degC, c.motor);
+  if (t.cold.empty() && t.hot.empty()) t.kept = on_kept_current(s, winding, c);
   return t;
 }
 
 }  // namespace
 
-void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, const EndWatch& end, Outcome& out) {
+void add_remarks(const Scenario& s, const Compiled& c, const RunWatch& w, const WindingWatch& winding,
+                 Outcome& out) {
   const auto add = [&out](std::string text) {
     if (!text.empty()) out.remarks.push_back(std::move(text));
   };
-  ThermalRemarks thermal = thermal_remarks(s, c, w, end, out);
+  ThermalRemarks thermal = thermal_remarks(s, c, w, winding, out);
   if (const std::string unused = unused_keys(s, thermal.use_ambient(s)); !unused.empty())
     add("keys without effect: " + unused);
   if (!s.not_usable.empty()) add("the design of this drive is NOT USABLE: " + s.not_usable);
-  for (std::string& text : belief_costs(s, c)) add(std::move(text));
+  for (BeliefCost& cost : belief_costs(s, c)) add(std::move(cost.text));
   add(sheet_contradiction(s));
   add(on_supply(s));
   add(std::move(thermal.limit));

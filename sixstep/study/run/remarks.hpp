@@ -3,9 +3,9 @@
 // its numbers.
 #pragma once
 #include "sixstep/study/compile/compile.hpp"
-#include "sixstep/study/measure/end_watch.hpp"
 #include "sixstep/study/measure/outcome.hpp"
 #include "sixstep/study/measure/run_watch.hpp"
+#include "sixstep/study/measure/winding_watch.hpp"
 
 namespace sixstep::study {
 
@@ -22,9 +22,8 @@ namespace sixstep::study {
 ///   - the sentences of passed_limits() (limit_remarks.hpp),
 ///   - fewer than five control periods in a commutation step of a six-step drive,
 ///   - a duty step or an overlap that does not act as expected (commutation_remarks.hpp).
-/// `compiled` was compiled from the scenario; its timeline is not read. `watch` observed the whole run, `end`
-/// its last part.
+/// `compiled`: the scenario's; its timeline is not read. `watch` and `winding`: of the whole run.
 void add_remarks(const Scenario& scenario, const Compiled& compiled, const RunWatch& watch,
-                 const EndWatch& end, Outcome& outcome);
+                 const WindingWatch& winding, Outcome& outcome);
 
 }  // namespace sixstep::study
