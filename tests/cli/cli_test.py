@@ -191,7 +191,7 @@ class CommandLine(ProgramTest):
         self.write("a.toml", 1000)
         for words, told in (
                 ("run", "sixstep run needs FILE: scenario or plan files; sixstep run --help lists all"),
-                ("motor", "sixstep motor needs a command: list, show, check, new, wiring, commission, identify, emf; sixstep motor --help lists all"),
+                ("motor", "sixstep motor needs a command: list, show, check, new, wiring, commission, identify, emf, fit; sixstep motor --help lists all"),
                 ("motor lst", "lst is not a command of sixstep motor; did you mean list?"),
                 ("run a.toml --htlm x", "--htlm is not an argument of sixstep run; did you mean --html?"),
                 ("run a.toml --duraton 3", "--duraton is not an argument of sixstep run; did you mean --set duration_s=..?"),

@@ -123,7 +123,7 @@ class Conditions(ProgramTest):
         (self.path / "a.toml").write_text(re.sub(r"resistance_ohm        = \{ value = 1.03", "resistance_ohm = { value = 1", SHEET, count=1)
                                           .replace("range = [0.978, 1.03]", "range = [0.978, 1.03]"))
         told = self.run_program("motor", "check", "a.toml", code=None).stdout
-        self.assertIn("resistance_ohm = 1 is taken as 1 +- 50 %", told)
+        self.assertIn("resistance_ohm = 1 is read as 1 +- 50 %", told)
 
     def test_figures_with_the_sensor_are_of_one_loop(self):
         """The delay margin is the phase margin divided by the crossover frequency. This is true in the rows that

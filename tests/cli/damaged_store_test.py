@@ -100,7 +100,7 @@ class DamagedStore(ProgramTest):
 
     def test_another_version_or_format_is_named(self):
         self.change("UPDATE about SET value = '0.0.1' WHERE word = 'sixstep'")
-        self.assertIn("was begun by sixstep 0.0.1, and this is", self.refused())
+        self.assertIn("was begun by sixstep 0.0.1, but this is", self.refused())
         self.change("PRAGMA user_version = 1")
         self.assertIn("was written by an older sixstep without checksums", self.refused())
 

@@ -323,8 +323,8 @@ class Plan(ProgramTest):
                            ("supply.voltage_V=-1:2:3:log", "must be above 0, like both ends of a logarithmic range"),
                            ("supply.voltage_V=1m:2m:3", "m"),
                            ("pwm.chopping=soft,hrad", "hrad"),
-                           ("require[0].max=1,2", "is the same in all runs"),
-                           ("title=a,b", "is the same in all runs")):
+                           ("require[0].max=1,2", "must be the same in all runs"),
+                           ("title=a,b", "must be the same in all runs")):
             code = 2
             result = self.run_program("run", "a.toml", "--vary", vary, code=code)
             self.assertIn(told, result.stderr + result.stdout, vary)

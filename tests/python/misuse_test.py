@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Wrong uses that once failed silently, hung, or had an unclear message."""
+import html
 import math
 import os
 import pathlib
@@ -90,7 +91,7 @@ class EndsThatAreTold(unittest.TestCase):
 
     def test_a_fault_and_remarks_are_shown_with_the_verdicts(self):
         r = sixstep.run(sixstep.shipped("product-broken-hall-line"))
-        self.assertIn(r.fault, r._repr_html_())
+        self.assertIn(html.escape(r.fault), r._repr_html_())
         self.assertIn("i_a", r)
         self.assertIn("i_a_A", list(r))
 

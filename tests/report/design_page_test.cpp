@@ -61,9 +61,9 @@ TEST(DesignPage, HasEveryPartOfTheDesign) {
 
 TEST(DesignPage, ShowsWhatDecidesFirstAndFoldsTheRest) {
   const std::string page = page_of(studied(Mode::speed));
-  const std::size_t steps = page.find("<details><summary>How they come about"),
+  const std::size_t steps = page.find("<details><summary>Derivation, step by step"),
                     margins = page.find("gain margin"), tolerances = page.find("<h2>Tolerances"),
-                    file = page.find("<details><summary>The file");
+                    file = page.find("<details><summary>The file that was simulated");
   ASSERT_NE(steps, page.npos);
   ASSERT_NE(file, page.npos);
   EXPECT_LT(page.find("<h2>Gains"), steps);
@@ -85,7 +85,7 @@ TEST(DesignPage, TellsHowTheSpeedIsKnown) {
   const std::string page = page_of(s);
   for (const char* part :
        {"slowest speed that does not read as 0", "12.5\u00a0rad/s", "Without a rotor sensor", "23.5\u00a0ms"})
-    EXPECT_GT(page.find(part), page.find("<details><summary>How they come about")) << part;
+    EXPECT_GT(page.find(part), page.find("<details><summary>Derivation, step by step")) << part;
   EXPECT_THAT(page, HasSubstr("slowest speed that does not read as 0"));
   EXPECT_THAT(page, HasSubstr("23.5\u00a0ms"));
 }

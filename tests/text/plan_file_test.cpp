@@ -200,7 +200,7 @@ TEST(PlannedScenarios, RefuseWhatNoRunCouldHave) {
     return problems.empty() ? std::string("nothing") : to_string(problems.front());
   };
   EXPECT_THAT(told({.key = "supply.voltge_V", .values = {"1"}}), HasSubstr("voltge_V"));
-  EXPECT_THAT(told({.key = "require[0].max", .values = {"1"}}), HasSubstr("is the same in all runs"));
+  EXPECT_THAT(told({.key = "require[0].max", .values = {"1"}}), HasSubstr("must be the same in all runs"));
   EXPECT_THAT(told({.key = "pwm.chopping", .values = {"soft"}, .strays = true}),
               HasSubstr("is not a number, but strays = true requires numbers"));
   EXPECT_THAT(told({.key = "pwm.period_s", .values = {"3e-5"}, .strays = true}),
