@@ -59,9 +59,9 @@ struct Observers {
     if (logic) logic->segment(rig, s);
     ++segments;
   }
-  /// Called from time to time and at the end.
+  /// Called from time to time and at the end: for size, and once in the program for each kind of rig.
   template <class Rig>
-  void look(const Rig& rig) {
+  [[gnu::noinline, gnu::cold]] void look(const Rig& rig) {
     extremes.look(rig);
     if (!audit) return;
     const design::Temperatures* simulated = nullptr;
