@@ -194,17 +194,17 @@ std::string variable_before(std::string_view text, std::size_t name, std::size_t
 
 /// "motor.phase_resistance = 0.23;" after the constructor, which it replaces.
 void add_members(std::string_view text, const std::string& variable, std::size_t from, ForeignWords& out) {
-  constexpr std::pair<std::string_view, std::string_view> members[] = {
+  constexpr std::pair<const char*, const char*> members[] = {
       {".pole_pairs", "pp"}, {".phase_resistance", "R"}, {".phase_inductance", "Lq"}};
   if (variable.empty()) return;
   for (const auto& [member, name] : members) {
-    const std::string path = variable + std::string(member);
+    const std::string path = variable + member;
     for (std::size_t at = text.find(path, from); at != std::string_view::npos; at = text.find(path, at + 1)) {
       std::string_view rest = trimmed(text.substr(at + path.size()));
       const bool whole = at == 0 || !std::isalnum(static_cast<unsigned char>(text[at - 1]));
       if (!whole || !rest.starts_with('=') || rest.starts_with("==")) continue;
       rest = rest.substr(1, std::min(rest.find(';'), rest.size()) - 1);
-      out.push_back({std::string(name), variable, std::string(trimmed(rest)), LineCount(text).at(at)});
+      out.push_back({name, variable, std::string(trimmed(rest)), LineCount(text).at(at)});
     }
   }
 }

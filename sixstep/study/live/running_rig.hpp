@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Implements AnyRun for one kernel with one kind of drive. Only the files rig_* include it: each compiles the
-// engine once.
+// engine once. Functions that a run calls once are marked cold, and are compiled for size.
 #pragma once
 #include <utility>
 
@@ -11,7 +11,7 @@
 namespace sixstep::study::detail {
 
 template <class Rig>
-void count_events(const Rig& rig, Outcome& out) {
+[[gnu::cold]] void count_events(const Rig& rig, Outcome& out) {
   using rig::EventKind;
   constexpr std::pair<EventKind, const char*> names[] = {{EventKind::sector_edge, "sector edges"},
                                                          {EventKind::diode_off, "diode stops"},
@@ -27,7 +27,8 @@ void count_events(const Rig& rig, Outcome& out) {
 /// Writes the results of a run up to the present instant. The run may have ended at this instant, or may
 /// continue.
 template <class Rig>
-base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w, Outcome& out) {
+[[gnu::cold, gnu::noinline]] base::Problems note_end(const Rig& rig, sim::Stop stop, Observers& w,
+                                                     Outcome& out) {
   const double t_s = rig.now().seconds();
   const bool away = has_run_away(rig.plant());
   const rig::Diagnosis found = rig.firmware().diagnosis();
@@ -64,8 +65,10 @@ class RunningRig final : public AnyRun {
   /// Creates the chip of a scenario: once at the start, and once in each call of take().
   using MakeChip = base::Result<Chip<Firmware>> (*)(const Scenario&, const Compiled&);
 
-  static base::Result<std::unique_ptr<AnyRun>> made(MakeChip make_chip, const Scenario& scenario,
-                                                    const Compiled& compiled, rig::Timeline timeline) {
+  [[gnu::cold]] static base::Result<std::unique_ptr<AnyRun>> made(MakeChip make_chip,
+                                                                  const Scenario& scenario,
+                                                                  const Compiled& compiled,
+                                                                  rig::Timeline timeline) {
     const base::Result<Chip<Firmware>> chip = make_chip(scenario, compiled);
     if (!chip) return chip.problems();
     return std::unique_ptr<AnyRun>(new RunningRig(make_chip, compiled, *chip, std::move(timeline)));
@@ -82,7 +85,8 @@ class RunningRig final : public AnyRun {
     twin.act();
     if (twin.expand(1e-12) >= 0) slice.take(twin, 0.0, twin.now().seconds());
   }
-  base::Problems take(const Scenario& scenario, const Compiled& compiled, rig::Timeline timeline) override {
+  [[gnu::cold]] base::Problems take(const Scenario& scenario, const Compiled& compiled,
+                                    rig::Timeline timeline) override {
     base::Result<Chip<Firmware>> chip = make_chip_(scenario, compiled);
     if (!chip) return chip.problems();
     rig_.replace_future(std::move(timeline), {chip->config, chip->bases.setpoint}, std::move(chip->later));

@@ -60,9 +60,9 @@ struct Observers {
     if (logic) logic->segment(rig, s);
     ++segments;
   }
-  /// Called repeatedly during the run, and at its end.
+  /// Called repeatedly during the run, and at its end. Compiled for size, once for each kind of rig.
   template <class Rig>
-  void look(const Rig& rig) {
+  [[gnu::noinline, gnu::cold]] void look(const Rig& rig) {
     extremes.look(rig);
     if (!audit) return;
     const design::Temperatures* simulated = nullptr;

@@ -122,9 +122,9 @@ std::string observer_words(const design::FieldMachine& m, const design::FieldMac
   std::string text;
   const double psi = m.magnet_V_s / m.pole_pairs, missing_H = m.L_q_H - f.L_q_H;
   if (const double lost_A = std::fabs(psi / missing_H); missing_H != 0.0)
-    text += "; its observer's angle is off by d, sin d = (L_m - L_f) I/psi, " +
-            few_digits(std::asin(missing_H / psi * lost_A / 2) * 180 / base::pi) + " deg at " +
-            few_digits(lost_A / 2) + " A, and the rotor is lost above " + few_digits(lost_A) + " A";
+    text += std::string("; its observer's angle is off by d, sin d = (L_m - L_f) I/psi: ") +
+            (missing_H < 0.0 ? "-30" : "30") + " deg at " + few_digits(lost_A / 2) +
+            " A, and the rotor is lost above " + few_digits(lost_A) + " A";
   if (m.R_ohm != f.R_ohm)
     text += "; its observer's flux is off by (R_m - R_f) I/(p w), as much as the magnet's at " +
             few_digits(std::fabs(m.R_ohm - f.R_ohm) / m.magnet_V_s) +
