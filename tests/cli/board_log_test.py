@@ -143,7 +143,7 @@ class LogsOfOthers(LogTest):
                       "duty = duty_cycle\n", text)
         self.assertIn("current_in (a mean over PWM periods; the simulation has the current of each pulse)", text)
         text = self.expect_right("--columns", "time=ms_today/1000,speed=erpm*2*pi/60/15,i_m=current_motor")
-        self.assertIn("the log's clock starts at 36000 s, so that times are counted from its first row", text)
+        self.assertIn("the log's clock starts at 36000 s; times are counted from the log's first row", text)
         self.assertIn("not used: input_voltage, temp_mos_max, current_in, d_axis_current, q_axis_current, duty_cycle, tacho_meter (not named)", text)
 
     def test_vesc_in_reverse(self):

@@ -44,9 +44,9 @@ TEST(IronDrag, TheNoLoadCurrentPaysForBothTogether) {
   EXPECT_EQ(motor_model(standard)->iron.B_Nm_s, 2e-6);
   EXPECT_NEAR(motor_model(standard)->shaft.B_Nm_s, f.B_Nm_s, 1e-20);
   s.iron_viscous_Nm_s->value = 2e-5;
-  EXPECT_NE(
-      told(s).find("iron_viscous_Nm_s = 2e-05 exceeds the friction that the no-load points leave for it"),
-      std::string::npos)
+  EXPECT_NE(told(s).find(
+                "iron_viscous_Nm_s = 2e-05 exceeds the friction that the no-load points leave for the iron"),
+            std::string::npos)
       << told(s);
 }
 

@@ -287,7 +287,7 @@ TEST(SheetCheck, AKnownDeviationMustBeOneAndIsOne) {
   EXPECT_EQ(to_string(check_sheet(s).problems().at(0)),
             "known_deviation = \"stall torque\" names a relation that holds; remove this name");
   s.known_deviation = {"stall"};
-  EXPECT_EQ(to_string(check_sheet(s).problems().at(0)).substr(0, 78),
+  EXPECT_EQ(to_string(check_sheet(s).problems().at(0)).substr(0, 90),
             "known_deviation = \"stall\" is not the name of a relation of this sheet; name one of these: ");
 }
 
@@ -326,7 +326,7 @@ TEST(SheetCheck, MessagesNameValuesAsTheFileWritesThem) {
   s.inertia_gcm2->key = "inertia_kgcm2";
   const auto told = check_sheet(s);
   ASSERT_FALSE(told);
-  EXPECT_EQ(to_string(told.problems()[0]).substr(0, 88),
+  EXPECT_EQ(to_string(told.problems()[0]).substr(0, 92),
             "inertia_with_brake_kgm2 = 1e-05 is less than the rotor's inertia, inertia_kgcm2 = 0.135; swa");
   s = printed_251601();
   s.torque_constant_mNm_A->value = 41e3;

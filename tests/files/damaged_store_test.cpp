@@ -143,7 +143,7 @@ TEST_F(DamagedStore, OfAnotherFormatOrVersionSaysSo) {
   EXPECT_THAT(told(), HasSubstr("has the format 4"));
   write(good);
   tamper("UPDATE about SET value = '0.0.9' WHERE word = 'sixstep'");
-  EXPECT_THAT(told(), HasSubstr("was begun by sixstep 0.0.9, and this is "));
+  EXPECT_THAT(told(), HasSubstr("was begun by sixstep 0.0.9, but this is "));
 }
 
 }  // namespace SIXSTEP_TEST_FILE

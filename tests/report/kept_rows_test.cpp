@@ -141,7 +141,7 @@ TEST(KeptRows, AreForetoldWhereTheirNumberCanBe) {
   s.duration_s = 0.1;
   EXPECT_EQ(rows_foretold(s), "");
   s.duration_s = 1000;
-  EXPECT_THAT(rows_foretold(s), HasSubstr("a report keeps 160 MB"));
+  EXPECT_THAT(rows_foretold(s), HasSubstr("a report keeps only 160 MB"));
   // The time from which every event is stored depends on the run, so only the page states it.
   const std::string longer = rows_foretold(s);
   s.pwm.period_s = 60e-6;

@@ -101,7 +101,7 @@ TEST(PlanPage, SaysWhichRunsAreMissing) {
   made.rows.erase(made.rows.begin() + 3);
   made.sum_up();
   const std::string page = page_of(made);
-  EXPECT_THAT(page, HasSubstr("Interrupted: 125 of 126 runs"));
+  EXPECT_THAT(page, HasSubstr("Interrupted: this page has 125 of 126 runs."));
   EXPECT_TRUE(data_of(page)["plans"][0].contains("numbers"));
 }
 

@@ -305,7 +305,7 @@ TEST(FieldEstimate, WhatCannotWorkIsRefusedWithItsCure) {
     change(other);
     return other;
   };
-  expect_refused(with([](Scenario& x) { x.pwm.sample = SampleAt::middle; }), "pwm.sample", "crosses zero");
+  expect_refused(with([](Scenario& x) { x.pwm.sample = SampleAt::middle; }), "pwm.sample", "pulse is zero");
   expect_refused(with([](Scenario& x) { x.control.mode = Mode::position; }), "control.mode", "counts turns");
   expect_refused(with([](Scenario& x) { x.sensors.rotor = RotorSensing::encoder; }), "sensors.rotor",
                  "has no effect");

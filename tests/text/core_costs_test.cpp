@@ -110,7 +110,7 @@ TEST(CoreCosts, APeriodTooShortForAnImageIsToldAsTheImageHasIt) {
 /// needs.
 TEST(CoreCosts, ALeastPeriodIsRoundedUp) {
   for (const auto& [period_s, words, counts] :
-       {std::tuple{4e-6, "needs: ", 1600.0}, {30e-6, "below ", 5006.0}}) {
+       {std::tuple{4e-6, "images: ", 1600.0}, {30e-6, "Below ", 5006.0}}) {
     const std::string told = text::too_short_for_images(period_s);
     const double us = std::stod(told.substr(told.find(words) + std::string(words).size()));
     EXPECT_GE(us * 72, counts);

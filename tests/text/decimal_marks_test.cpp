@@ -78,7 +78,7 @@ TEST(DecimalMarks, DecimalCommasAreReadWhereOneCellCanBeNothingElse) {
 /// If semicolons separate the cells, the decimal mark is a comma. A point may then separate thousands, if the
 /// column has no smaller number.
 TEST(DecimalMarks, PointsBetweenSemicolonsMayPartThousands) {
-  EXPECT_THAT(told("ms;rpm\n0;1.000\n1;1.500\n"), HasSubstr("holds 1.000, which may mean 1000 or 1.000"));
+  EXPECT_THAT(told("ms;rpm\n0;1.000\n1;1.500\n"), HasSubstr("contains 1.000, which may mean 1000 or 1.000"));
   EXPECT_EQ(told("ms;rpm\n0.5;1.000\n1;1.500\n"), "");
   EXPECT_EQ(told("ms,V\n0,1.000\n1,1.500\n"), "");
 }

@@ -195,7 +195,7 @@ TEST(ForeignMotor, HostileFilesAreNoMotor) {
               HasSubstr("a.file:3: motor.resistance_ohm = nan must be a number above 0"));
   EXPECT_THAT(told(with(vesc(), ">0.0187<", ">1e30<")),
               HasSubstr("foc_motor_r = 1e30 becomes resistance_ohm = 1e+30, which must"));
-  EXPECT_THAT(told(with(vesc(), ">14<", ">13<")), HasSubstr("si_motor_poles = 13 is odd"));
+  EXPECT_THAT(told(with(vesc(), ">14<", ">13<")), HasSubstr("si_motor_poles = 13 is an odd number of poles"));
   EXPECT_THAT(told(with(odrive(), "\"pole_pairs\": 7", "\"pole_pairs\": 7.5")),
               HasSubstr("must be a whole number"));
   EXPECT_THAT(told(with(vesc(), "<foc_motor_ld_lq_diff>4", "<foc_motor_ld_lq_diff>9000")),
@@ -248,7 +248,7 @@ TEST(ForeignMotor, ASketchMaySetTheMotorsMembers) {
   EXPECT_THAT(*text, HasSubstr(fmt::format("resistance_ohm = {{ value = {}, frame = \"phase\"", R)));
   EXPECT_THAT(*text, HasSubstr("inductance_uH = { value = 24.4"));
   EXPECT_THAT(told("class Own : public BLDCMotor { int pole_pairs = 7; };"),
-              HasSubstr("has no value of a motor"));
+              HasSubstr("contains no known value of a motor"));
 }
 
 TEST(ForeignMotor, WhatIsTakenForAnotherIsTold) {

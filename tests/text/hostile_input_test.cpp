@@ -246,7 +246,7 @@ TEST(HostileInput, ATableOfRowsIsHeldToTheSameNumbers) {
   EXPECT_THAT(
       told_of_rows("t_s,i_A\n0,1\n1e-3,1e308\n"),
       ElementsAre(
-          "r.csv:3: value 1e+308 must lie in -1000000 to 1000000, in A; correct the unit in this column's heading"));
+          "r.csv:3: value 1e+308 must lie in -1000000 to 1000000, in A; check the unit of this column"));
   EXPECT_THAT(told_of_rows("0,1\n1e10,2\n"),
               ElementsAre(HasSubstr("time 10000000000 must lie in -9000000 to 9000000, in s")));
   for (const char* none : {"nan", "inf", "-inf", "1e999"})

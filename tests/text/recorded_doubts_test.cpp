@@ -211,7 +211,7 @@ TEST(RecordedDoubts, TwoColumnsOfOneNameAreToldApartByPlace) {
   expect_right(file, 1e-5, named({"u_ab", "u_ab"}));
   expect_right(file, 1e-5, named({"column 2", "column 3"}));
   EXPECT_THAT(seen(plain("time [s],a,b\n"), named({"a", "a"})).problem,
-              HasSubstr("has column \"a\" requested twice"));
+              HasSubstr("is asked twice for the column \"a\""));
   EXPECT_THAT(seen(plain("time [s],CH1,CH1\n"), between_lines).channels,
               ElementsAre("CH1", "CH1 (column 3)"));
 }
@@ -223,7 +223,9 @@ TEST(RecordedDoubts, ARateInThePreamble) {
   for (const auto& [per_s, unit] : {std::pair{1e3, "ms"}, {1e6, "us"}, {1e9, "ns"}}) {
     const std::string file = rate + plain("Time,u_ab,u_bc\n", "{:.1f},{:.5f},{:.5f}\n", per_s);
     expect_right(file);
-    EXPECT_THAT(seen(file).notes, ElementsAre(fmt::format("Time is in {} by \"Samplerate: 10 kHz\"", unit)));
+    EXPECT_THAT(
+        seen(file).notes,
+        ElementsAre(fmt::format("Time is read in {}, because the file says \"Samplerate: 10 kHz\"", unit)));
   }
   expect_right(rate + table("u_ab,u_bc\n", [](int, double, double a, double b) {
                  return fmt::format("{:.5f},{:.5f}\n", a, b);

@@ -76,7 +76,7 @@ TEST(RecordedHall, SigrokWithAColumnOfTime) {
   expect_right(found, rows);
   ASSERT_FALSE(found.log.t_s.empty());
   EXPECT_NEAR(found.log.t_s.back(), 0.2, 1e-4);
-  EXPECT_THAT(found.notes, Contains("Time is in us by \"Samplerate: 20 kHz\""));
+  EXPECT_THAT(found.notes, Contains("Time is read in us, because the file says \"Samplerate: 20 kHz\""));
   const auto identity = analysis::identify(found.log, 1, [] { return true; });
   ASSERT_TRUE(identity);
   // If rows exist only at changes, they are whole numbers of samples apart.

@@ -95,7 +95,8 @@ TEST(ReferenceFile, EachSlipIsToldWithItsLine) {
   std::string broken = "0,1\n";
   for (int n = 0; n < 100; ++n) broken += "x,y\n";
   EXPECT_EQ(told(broken).size(), 6u);
-  EXPECT_EQ(told(broken).back(), "r.csv: is wrong in 95 more lines; each row is a time in s and a value");
+  EXPECT_EQ(told(broken).back(),
+            "r.csv: has wrong rows in 95 more lines; each row is a time in s and a value");
 }
 
 class ReferenceInAFile : public ScenarioFolder {

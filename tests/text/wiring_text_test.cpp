@@ -71,7 +71,7 @@ TEST(WiringText, SaysWhichWiringsDifferFromTheory) {
   EXPECT_THAT(text, HasSubstr("phases abc, Hall lines 231: backward, late by theory, hums in simulation\n"));
   EXPECT_THAT(text,
               HasSubstr("phases bac, Hall lines 213: forward, early by theory, unclear in simulation\n"));
-  EXPECT_THAT(text, HasSubstr("34 of 36 move in simulation as theory predicts"));
+  EXPECT_THAT(text, HasSubstr("34 of 36 wirings move in simulation as theory predicts"));
   for (analysis::WiringCase& c : s.cases)
     c.measured.does = WiringDoes::hums;  // no wiring is left to compare the others with
   EXPECT_THAT(text::wiring_text(s), HasSubstr("18 of 36"));

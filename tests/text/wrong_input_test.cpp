@@ -154,8 +154,8 @@ TEST_F(WrongInput, FrameMustBeOneOfTheKeysOwn) {
   EXPECT_THAT(
       complaints("motor = \"m\"\nduration_s = 0.02\n"),
       ElementsAre(
-          "m.toml:4:38: inductance_mH.frame = \"star\" must be \"terminal\" or \"phase\"; give the "
-          "points between which the sheet measures the value",
+          "m.toml:4:38: inductance_mH.frame = \"star\" must be \"terminal\" or \"phase\"; write "
+          "frame = with the points between which the sheet measures the value",
           "m.toml:5:37: inertia_gcm2.frame = \"phase\" is not needed; remove frame: this value has only one meaning"));
 }
 

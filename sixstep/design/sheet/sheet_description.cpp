@@ -150,7 +150,7 @@ void describe_no_load(base::Visitor& v, Sheet& s) {
               .range = base::above(0),
               .also = spellings::no_load_speed});
   v.quantity("no_load_current_mA", s.no_load_current_mA,
-             {.meaning = "current without load, at the same voltage as no_load_speed_rpm",
+             {.meaning = "current without load, at the voltage of the no-load speed",
               .unit = "mA",
               .frame = "terminal",
               .range = base::from(0),

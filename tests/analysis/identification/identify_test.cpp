@@ -279,7 +279,7 @@ TEST(Identify, WhatIsNoLogIsToldWhy) {
   EXPECT_THAT(changed([](HallLog& l) { l.t_s[3] = NAN; }), HasSubstr("in row 4 does not rise"));
   EXPECT_THAT(changed([](HallLog& l) { l.codes[9] = 8; }),
               HasSubstr("hall = 8 in row 10 must be a code of three bits"));
-  EXPECT_THAT(changed([](HallLog& l) { l.codes.pop_back(); }), HasSubstr("one for each of"));
+  EXPECT_THAT(changed([](HallLog& l) { l.codes.pop_back(); }), HasSubstr("one value for each of"));
   EXPECT_THAT(changed([](HallLog& l) {
                 HallLog thin;
                 for (std::size_t n = 0; n < l.t_s.size(); n += 70)

@@ -187,9 +187,13 @@ FIT_TRUTH = {"resistance_ohm": 1.2, "inductance_mH": 0.5, "torque_constant_mNm_A
 
 def fit_rows(spot):
     """Key: fitted value and bounds."""
-    number = r"(-?[\d.]+(?:e-?\d+)?)"
-    rows = re.findall(rf"^  (\w[\w. ]*?(?: in \S+| of \S+)?) +{number} \S[^\d]*? +{number} \S.*? +{number} \.\. {number}", spot.text, re.M)
-    return {key: tuple(map(float, (x, low, high))) for key, _, x, low, high in rows}
+    rows = {}
+    for line in spot.text.split("\n"):
+        cells = re.split(r" {2,}", line.strip())
+        bounds = re.fullmatch(r"(\S+) \.\. (\S+)", cells[3]) if len(cells) > 3 else None
+        if bounds:
+            rows[cells[0]] = tuple(map(float, (cells[2].split()[0], *bounds.groups())))
+    return rows
 
 
 def fit(test, spot):

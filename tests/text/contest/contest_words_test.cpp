@@ -94,7 +94,7 @@ TEST(ContestWords, AgainstNothingStandsAValue) {
   const std::string phrase(analysis::contest_figures[settle].phrase);
   EXPECT_THAT(phrase, HasSubstr("settling"));
   EXPECT_THAT(words({{0, 0.0, 1.0}, {1, 0.005, 2.0}}),
-              Contains(HasSubstr(phrase + " (0 ms, the next 5 ms)")));
+              Contains(HasSubstr(phrase + " (0 ms; the next controller: 5 ms)")));
   const double never = std::numeric_limits<double>::infinity();
   EXPECT_THAT(words({{0, never, 1.0}, {1, 0.005, 2.0}}),
               Contains(HasSubstr(name(1) + " has these least values: " + phrase +
