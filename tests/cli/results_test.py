@@ -235,7 +235,7 @@ class Page(ProgramTest):
     def test_its_options_and_signals_are_those_of_the_program(self):
         options = set(re.findall(r"^\| `(--\w+) F`", self.PAGE, re.M))
         told = self.run_program("run", "--help").stdout
-        self.assertEqual(options, set(re.findall(r"^  (--\w+) .*\bwrite", told, re.M)))
+        self.assertEqual(options, set(re.findall(r"^  (--\w+) TEXT .*\bwrite", told, re.M)))
         self.run_program("run", self.write("a.toml", 1000), "--vcd", "w.vcd", "--quiet")
         for name in Dump(self.path / "w.vcd").kinds:
             _, group, signal = name.split(".")

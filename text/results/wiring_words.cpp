@@ -138,9 +138,9 @@ std::span<const std::pair<std::string_view, std::string_view>> recipe_steps() {
   static constexpr std::pair<std::string_view, std::string_view> steps[] = {
       {"the motor jerks and hums", "swap any two phase wires; then the motor runs"},
       {"the motor runs rough",
-       "move all three phase wires by one leg, and once more if it is still rough; then it runs well backward"},
+       "move all phase wires by one leg, once more if it is still rough; then it runs well backward"},
       {"the motor runs well, but backward",
-       "swap the phase wires at legs a and b and the Hall lines at H2 and H3, or reverse the sign of the reference"},
+       "swap the phase wires at legs a and b and the Hall lines at H2 and H3, or negate the reference"},
   };
   return steps;
 }

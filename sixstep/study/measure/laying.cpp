@@ -259,19 +259,20 @@ ComparisonResult compared(const LaidOver& laid, const NamedFigure& figure, const
                             c.longest_s.value_or(std::numeric_limits<double>::infinity())};
     there = estimate(asked, pair.recorded);
     here = estimate(asked, pair.simulated);
-    here.uncertainty = std::hypot(here.uncertainty, 0.01 * c.conditions_percent * here.value);
+    here.uncertainty = root_of_squares(here.uncertainty, 0.01 * c.conditions_percent * here.value);
   }
   // The converter rounds a value by at most half a step; a fitted probe adds its own bounds.
   if (!distance && !of_pulses && figure.order < 2)
-    there.uncertainty = std::hypot(there.uncertainty, 0.5 * step,
-                                   std::hypot(p.scale_bound / p.scale * there.value, p.offset_bound));
+    there.uncertainty =
+        root_of_squares(root_of_squares(there.uncertainty, 0.5 * step),
+                        root_of_squares(p.scale_bound / p.scale * there.value, p.offset_bound));
   ComparisonResult out{figure.name(laid.measure),
                        std::string(figure.unit(laid.measure)),
                        here.value,
                        there.value,
                        c.file,
                        0.0};
-  out.uncertainty = std::hypot(there.uncertainty, here.uncertainty);
+  out.uncertainty = root_of_squares(there.uncertainty, here.uncertainty);
   if (!distance) out.source += ", " + std::to_string(there.count) + (of_pulses ? " pulses" : " periods");
   out.fails = c.tolerance_percent &&
               !(out.beyond() <= 0.01 * *c.tolerance_percent * std::abs(distance ? p.span : there.value));

@@ -44,7 +44,7 @@ Estimate mean_estimate(const Values& x, double independent, double resolution) {
     return out;
   }
   const double spread = deviation(x, out.value) * student(std::max(1.0, independent - 1.0));
-  out.uncertainty = std::hypot(spread / std::sqrt(independent), resolution);
+  out.uncertainty = root_of_squares(spread / std::sqrt(independent), resolution);
   return out;
 }
 
@@ -108,7 +108,7 @@ Estimate of_pulses(const FigureAsked& asked, const Samples& x) {
 /// One order of a signal: a cos(p) + b sin(p) with the phase p since the first value.
 struct Wave {
   double a = 0.0, b = 0.0;
-  double size() const { return std::hypot(a, b); }
+  double size() const { return root_of_squares(a, b); }
 };
 
 /// One order over a whole period of `samples` samples: of the last value only a part counts, because a rounded

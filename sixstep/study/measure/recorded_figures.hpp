@@ -2,6 +2,7 @@
 // Figures that one function computes from a recording and from the simulated signal, each with its
 // uncertainty: twice the sampling of an edge, and the spread over pulses or over periods.
 #pragma once
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "sixstep/study/scenario/recording.hpp"
 
 namespace sixstep::study {
+
+/// Root of the sum of the squares, as uncertainties of independent causes add. std::hypot() differs between platforms.
+inline double root_of_squares(double a, double b) { return std::sqrt(a * a + b * b); }
 
 /// A signal at evenly spaced instants.
 struct Samples {

@@ -85,7 +85,7 @@ def limits(test, spot):
     left = dict((float(w), float(v)) for v, w in re.findall(r"(-?[\d.]+) V at (\d+)", spot.text))
     for w, volts in left.items():
         close(test, spot, f"voltage left at {w} rad/s", volts, U - 2.33 * R - K_T * w, 0, 0.06)
-    held = float(re.search(r"holds the torque up to ([\d.]+) rad/s, 4 E", spot.text).group(1))
+    held = float(re.search(r"holds the torque up to ([\d.]+) rad/s, from 4 E", spot.text).group(1))
     close(test, spot, "speed up to which a duty holds the torque at a commutation", held, (U - 1.5 * R * 2.33) / (2 * K_T), 0, 0.06)
 
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "sixstep/analysis/identification/fit/fit_result.hpp"
+#include "sixstep/base/decimal.hpp"
 #include "sixstep/base/visitor.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "sixstep/study/scenario/spread.hpp"
@@ -16,10 +17,12 @@ constexpr std::string_view motor_table = "motor_override.";
 
 /// x to two digits of the half width of its bounds.
 double rounded(double x, const Interval& bounds) {
-  const double width = bounds.half_width();
-  if (!(width > 0.0)) return x;
-  const double step = std::pow(10.0, 1.0 - std::floor(std::log10(width)));
-  return std::round(x * step) / step;
+  double width = bounds.half_width();
+  if (!(width > 1e-30) || !(width < 1e30)) return x;
+  int power = 1;
+  for (; width < 1.0; width *= 10.0) ++power;
+  for (; width >= 10.0; width /= 10.0) --power;
+  return base::times_ten_to(std::round(base::times_ten_to(x, power)), -power);
 }
 
 /// Writes source and range of the fitted values into a sheet.
