@@ -130,7 +130,7 @@ Verb declare_commission(CLI::App& motor) {
   verb.add_flag("--json", a->json, "print the results as JSON");
   verb.add_option("--write", a->write, "write the results as lines for a motor's file");
   verb.add_option("--html", a->html,
-                  "write a page with the currents of the test, the rotor's path and all figures");
+                  "write an HTML page with the test currents, the rotor angle over time and all figures");
   take_force(verb, a->force);
   take_data(verb, a->data_dir);
   verb.add_flag("--quiet", a->quiet, "print errors only; files are still written");

@@ -21,7 +21,8 @@ Exit exit_after_printing(Exit exit);
 
 /// Prints one problem per line on standard error.
 void complain(const base::Problems& problems);
-/// Reports bad input. Prints nothing if an interrupt ended a wait for a pipe's other end.
+/// Prints the problems and returns `bad_input`. After an interrupt, for example while waiting for a pipe, prints
+/// nothing and returns the interrupt's exit code.
 Exit refused(const base::Problems& problems);
 
 /// Whether the stream is a terminal and NO_COLOR is not set (no-color.org).

@@ -101,7 +101,8 @@ class Database {
   std::string path_;
 };
 
-/// The Problem of a store that does not contain the written data; `how` is a clause.
+/// The Problem of a damaged store. `how` is a clause that says what is damaged, such as "its tables do not match
+/// its columns".
 base::Problem damaged(const std::string& path, const std::string& how);
 
 /// A name for SQL, including the quotes: "a name".

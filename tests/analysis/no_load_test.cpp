@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The no-load point is compared with the zero of the curve's torque, and with the final speed of a free
-// rotor.
+// The no-load point, at which the mean shaft torque is 0, is compared with an independent solver and with the
+// final speed of a free rotor.
 #include "sixstep/analysis/curve/no_load.hpp"
 
 #include <gtest/gtest.h>

@@ -87,7 +87,9 @@ TEST(RotorBody, IsHeldAgainstAPrintedInertiaWhichCounts) {
   EXPECT_EQ(relation(s).verdict, RelationVerdict::holds);
   s.rotor_radius_mm->value = 2 * r_mm;
   EXPECT_EQ(relation(s).verdict, RelationVerdict::broken);
-  EXPECT_EQ(relation(s).remark, "a factor 16: a diameter instead of the radius?");
+  EXPECT_EQ(
+      relation(s).remark,
+      "the dimensions give about 16 times the printed inertia: check whether rotor_radius_mm holds the diameter");
 }
 
 TEST(RotorBody, AnOverriddenMeasureDropsThePrintedInertia) {

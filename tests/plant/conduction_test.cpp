@@ -199,8 +199,9 @@ TEST(Standstill, FreeLegOnTheRailDoesNotConduct) {
 
 TEST(Pitfall03_RestartOnABoundary, RotorStartingOnASectorEdgeLeavesOnce) {
   for (int sector = 0; sector < 6; ++sector) {
-    // The gates drive the positive pair of the sector that the rotor enters. The rotor therefore leaves the
-    // edge as theta ~ t^3.
+    // The gates drive the positive pair of the sector that the rotor enters. The current rises in proportion
+    // to t, and so does the torque. The rotor therefore leaves the edge slowly, with theta proportional to
+    // t^3.
     static constexpr int pair[6][2] = {{0, 1}, {0, 2}, {1, 2}, {1, 0}, {2, 0}, {2, 1}};
     plant::Gates g;
     g.high[pair[sector][0]] = g.low[pair[sector][1]] = true;

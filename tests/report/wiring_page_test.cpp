@@ -73,7 +73,7 @@ TEST(WiringPage, HasEveryPart) {
       page,
       HasSubstr(
           "move the phase wires: a to c, c to b, b to a; or move the Hall lines: H1 to H2, H2 to H3, H3 to H1"));
-  EXPECT_THAT(page, HasSubstr("Swap two phase wires"));
+  EXPECT_THAT(page, HasSubstr("Swap any two phase wires"));
 }
 
 TEST(WiringPage, TellsWhereTheoryAndSimulationDiffer) {

@@ -114,9 +114,9 @@ TEST(Product, WithoutAFaultItIsTheLeanDriveToTheLastBit) {
 }
 
 TEST(Product, FollowsTheStepsOf74AsTheIdealDrive) {
-  // The speeds are 100, 102, 104 and 102 rad/s, and each mean begins after the transient. The mean of a speed
-  // by edges has two errors: a timer count in a sector of 1309 counts (at 100 rad/s), and the ripple within a
-  // sector. The converter of the current has 16 bits, 0.6 mA per count.
+  // The setpoints are 100, 102, 104 and 102 rad/s, and each mean begins after the transient. A speed measured
+  // from Hall edges has two errors: a timer count in a sector of 1309 counts (at 100 rad/s), and the ripple
+  // within a sector. The current has 16 bits (0.6 mA per count), so that its resolution adds no error.
   Scenario s = product_scenario(Mode::speed, 0.0);
   s.duration_s = 1.6;
   s.sensors.adc_bits = 16;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each test has a separate folder for scenarios that name other files. The functions return the messages
-// about these scenarios.
+// Each test has its own folder, for scenarios that name other files. `complaints` returns the messages about a
+// scenario.
 #pragma once
 #include <gtest/gtest.h>
 

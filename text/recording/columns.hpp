@@ -47,7 +47,8 @@ base::Result<std::vector<double>> converted(const Recording& recording, const Pi
 /// The headings for messages: "hall1, hall2, u_ab".
 std::string headings_of(const Recording& recording);
 
-/// Adds the note "not used: Comment, Remark (holds no numbers), Temp (in degC)"; no note without columns.
+/// Adds a note such as "not used: Comment, Remark (holds no numbers), Temp (in degC)": neither Comment nor Remark
+/// has numbers, and no wanted value has Temp's unit. No note without columns.
 struct NotUsed {
   std::string column, reason;
 };

@@ -203,13 +203,16 @@ std::string limits_text(const DriveDesign& d, const sixstep::design::Sheet& shee
       fmt::format(" rad/s; none above {} rad/s, without commutation time (sixstep curve includes it)\n",
                   speed(d.headroom_end_rad_s, 0)));
   const std::string held = fmt::format(
-      "from {:.3g} E + 3 R i = U (E: a phase's back-EMF, R: a phase's resistance, U: bus voltage)",
+      "{:.3g} E + 3 R i = U (E: a phase's back-EMF, R: a phase's resistance, i: motor current, U: bus voltage)",
       sixstep::design::commutation_emfs(d.motor.machine));
-  text += d.commutation_limit_rad_s > 0
-              ? motion.words(
-                    fmt::format("  commutation         a duty step holds the torque up to {} rad/s, {}{}\n",
-                                speed(d.commutation_limit_rad_s, 1), held, nominal_above(d, sheet)))
-              : motion.words(fmt::format("  commutation         no duty step holds the torque, {}\n", held));
+  text +=
+      d.commutation_limit_rad_s > 0
+          ? motion.words(
+                fmt::format("  commutation         a duty step holds the torque up to {} rad/s, from {}{}\n",
+                            speed(d.commutation_limit_rad_s, 1), held, nominal_above(d, sheet)))
+          : motion.words(fmt::format(
+                "  commutation         at no speed can a step of the duty keep the torque constant during commutation: 3 R i is not below U in {}\n",
+                held));
   if (d.spec.chopping == sixstep::control::Chopping::soft)
     text += motion.words(fmt::format(
         "  braking, soft       the braking current is held up to {} rad/s = i R_tt/K_t (R_tt: terminal resistance)\n",

@@ -93,7 +93,7 @@ std::string_view next_step_text(WiringDoes does) {
   if (does == WiringDoes::forward) return "Leave it.";
   if (does == WiringDoes::backward) return "Swap phases a and b, Hall lines H2 and H3.";
   if (does == WiringDoes::hums || does == WiringDoes::unclear)
-    return "Swap two phase wires; then the motor runs.";
+    return "Swap any two phase wires: the motor then runs, perhaps early, late or backward.";
   return "Shift all three phase wires, once or twice.";
 }
 

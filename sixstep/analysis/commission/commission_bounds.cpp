@@ -31,10 +31,10 @@ struct OfNoise {
   }
 };
 
-/// Angle error of the rotor in the field by cogging and by a back-EMF that is no sine. A trapezoid shifts the
-/// rotor by 1.12 degrees at rest. During the turn this error is a ripple near the rotor's resonance, which
-/// amplifies it by up to 1/(1 - 1/9) (commission_bench.cpp); friction changes the amplification by a
-/// twentieth.
+/// Angle between rotor and field that cogging and a back-EMF without sine shape cause. At rest, a trapezoid
+/// causes 1.12 degrees. During the turn the trapezoid's angle is a ripple at up to a third of the rotor's
+/// resonance frequency; the resonance amplifies it by up to 1/(1 - 1/9) (commission_bench.cpp), and friction
+/// changes this factor by at most a twentieth.
 double of_motor_deg(const CommissionBench& b) {
   constexpr double trapezoid_deg = 1.12 / (1 - 1.0 / 9) * 1.05;
   const double torque = 1.5 * b.compiled.motor.machine.pole_pairs * b.truth.flux_linkage_Vs * b.wish.test_A;

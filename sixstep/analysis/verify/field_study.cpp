@@ -64,7 +64,8 @@ std::vector<DerivationStep> steps_of(const study::Compiled& c, std::size_t axis)
   return {from, from + each};
 }
 
-/// Derivation of an outer loop's gains, if they are placed. The gain of a position loop is given.
+/// Steps that derive an outer loop's gains. Position loop: the given gain and its conversion. Other loops: the
+/// pole placement; empty if the gains do not come from it.
 std::vector<DerivationStep> outer_steps(const study::LoopGains& g) {
   if (g.loop == "position")
     return {{"K_p", "as given", g.d1, "rad/s/deg"},

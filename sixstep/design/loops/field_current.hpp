@@ -74,7 +74,7 @@ inline double most_weakening_A(const FieldMachine& machine) {
 /// currents.
 inline constexpr double usual_weakening_part = 0.95;
 
-/// Gain k of torque_per_ampere.hpp, 1/A; 0 for a round rotor.
+/// k_per_A of torque_per_ampere.hpp, (L_q - L_d)/(2 psi), 1/A; 0 for a round rotor.
 double torque_per_ampere_gain(const FieldMachine& machine);
 
 }  // namespace sixstep::design

@@ -41,7 +41,8 @@ control::ZeroCrossingConfig crossing_of(const SensorlessBasis& b) {
   return c;
 }
 
-/// Time within half a pulse, s, that the filters need to settle.
+/// Settling time, s, of the filters of terminals and comparators. Half a pulse must be at least as long as this
+/// time.
 double settled_s(const SensorlessBasis& b) {
   const bool in_pulse = b.spec.comparators.followed && b.spec.comparators.against_half_bus;
   return std::max(b.settle_s(), in_pulse ? rail_lags * b.comparator_lag_s : 0.0);

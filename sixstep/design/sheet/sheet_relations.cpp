@@ -280,7 +280,8 @@ class Relations {
                       "inertia", Term{c_.J_of_body_kg_m2->value * 1e7, body_doubt()}, printed, "g cm2",
                       body_margin, body_margin, false);
     if (r.verdict == RelationVerdict::broken && std::abs(r.left / r.right / 16.0 - 1.0) < 0.3)
-      r.remark = "a factor 16: a diameter instead of the radius?";
+      r.remark =
+          "the dimensions give about 16 times the printed inertia: check whether rotor_radius_mm holds the diameter";
   }
 
   /// Checks the no-load speed against the mechanical limit. They need not agree, because a bus may be lower

@@ -38,8 +38,9 @@ base::Result<WithstandTimes> withstand_times(const Sheet& sheet, const Heating& 
 /// thermal_model().
 base::Result<ThermalModel> safe_thermal_model(const Sheet& sheet);
 
-/// Largest factor on the temperature rise above ambient by `model`, at a constant loss: both resistances and both
-/// heat capacities deviate by the largest deviation of one of them.
+/// Upper bound of the temperature rise above ambient by `worse` divided by the rise by `model`, at the same
+/// constant loss. The bound assumes that both resistances and both heat capacities deviate by the largest of
+/// their four deviations.
 double greater_rise(const ThermalModel& model, const ThermalModel& worse);
 
 }  // namespace sixstep::design

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Creates a firmware's chip that the rig calls through the interface of any_drive.hpp. Only the files named
-// chip_* include it.
+// Functions that create the chip of a firmware; the rig calls the chip through any_drive.hpp. Only the files
+// chip_*.cpp include this header.
 #pragma once
 #include "sixstep/rig/drive_of.hpp"
 #include "sixstep/study/compile/chip.hpp"

@@ -99,7 +99,7 @@ TYPED_TEST(Resolver, TheAngleIsRightAllAroundAndOnlyCorrected) {
   EXPECT_NEAR(worst_plain, law, 0.1 * law);
 }
 
-/// A constant offset in a demodulated signal is also subtracted.
+/// resolver_signals subtracts the constant offset that remains in each signal after demodulation.
 TYPED_TEST(Resolver, ConstantOffsetsOfTheSignalsAreTakenAway) {
   using S = TypeParam;
   const SecondOrder loop(0.15, 0.8);
