@@ -33,6 +33,7 @@ class Fitting {
   base::Result<Fit> run() {
     base::Problems problems = approach();
     if (problems.empty()) problems = settle();
+    if (problems.empty()) problems = hold_undetermined();
     if (problems.empty()) problems = hold_frictions();
     if (problems.empty()) problems = bound();
     if (!problems.empty()) return problems;
@@ -123,6 +124,32 @@ class Fitting {
     return {};
   }
 
+  /// Holds at their starts the unknowns that the recordings do not determine: all without any effect, of others one after the
+  /// other, because it often determines the rest. The fitted values, differences and charts then belong together.
+  base::Problems hold_undetermined() {
+    for (;;) {
+      std::vector<std::size_t> held;
+      for (std::size_t k = 0; k < free_.size(); ++k)
+        if (free_[k] && is_without_effect(problem_, derivatives_, k)) held.push_back(k);
+      for (std::size_t k = 0; k < free_.size() && held.empty(); ++k)
+        if (free_[k] && !is_determined(covariance_, k)) held.push_back(k);
+      if (held.empty()) return {};
+      for (const std::size_t k : held) {
+        const FitParameter& p = problem_.parameters()[k];
+        out_.undetermined.push_back({p.key, bench_of(p), p.unit, p.start,
+                                     why_undetermined(problem_, derivatives_, covariance_, k),
+                                     recording_for(p)});
+      }
+      solution_.u = problem_.with_frictions_of_inertia(true, solution_.u);
+      for (const std::size_t k : held) {
+        free_[k] = false;
+        solution_.u[static_cast<Index>(k)] = 0.0;
+      }
+      solution_.u = problem_.with_frictions_of_inertia(false, solution_.u);
+      if (base::Problems problems = settle(); !problems.empty()) return problems;
+    }
+  }
+
   /// Holds at 0 the frictions whose best value is not above it. Their upper bounds follow from the linear problem.
   base::Problems hold_frictions() {
     bool held = false;
@@ -153,12 +180,6 @@ class Fitting {
     for (std::size_t k = 0; k < free_.size(); ++k) {
       const FitParameter& p = problem_.parameters()[k];
       if (!free_[k]) continue;
-      if (!is_determined(covariance_, k)) {
-        out_.undetermined.push_back({p.key, bench_of(p), p.unit, p.start,
-                                     why_undetermined(problem_, derivatives_, covariance_, k),
-                                     recording_for(p)});
-        continue;
-      }
       const base::Result<UnknownBounds> bounds = bounds_of(problem_, solution_, covariance_, free_, k);
       if (!bounds) return bounds.problems();
       const double u = solution_.u[static_cast<Index>(k)];
@@ -215,7 +236,9 @@ class Fitting {
 
 }  // namespace
 
-base::Result<Fit> fit(const FitRequest& request) {
+namespace {
+
+base::Result<Fit> fit_once(const FitRequest& request) {
   if (request.benches.empty())
     return base::Problem{"fit", "", "needs a recording", "give a recording and its scenario"};
   base::Result<std::vector<FitParameter>> parameters = fit_parameters(request);
@@ -233,6 +256,32 @@ base::Result<Fit> fit(const FitRequest& request) {
         "parameters are free, and the recordings have " + std::to_string(problem.rows()) + " values",
         "free fewer parameters, or record more rows"};
   return Fitting(std::move(problem)).run();
+}
+
+/// Begins the shifts of the recordings where a fit has found them. Returns whether one moved so far that other rows lie within
+/// the simulated time.
+bool take_shifts(const Fit& found, FitRequest& request) {
+  bool moved = false;
+  for (FitBench& bench : request.benches)
+    for (const analysis::FittedValue& v : found.values)
+      if (v.key == "shift_s" && v.bench == bench.name) {
+        moved = moved || std::fabs(v.value.value - bench.shift_s) > FitModel::margin_s(bench);
+        bench.shift_s = v.value.value;
+      }
+  return moved;
+}
+
+}  // namespace
+
+base::Result<Fit> fit(const FitRequest& request) {
+  base::Result<Fit> found = fit_once(request);
+  FitRequest again = request;
+  for (int round = 0; round < 3 && found && take_shifts(*found, again); ++round) {
+    const std::size_t before = found->simulations;
+    found = fit_once(again);
+    if (found) found->simulations += before;
+  }
+  return found;
 }
 
 }  // namespace batch

@@ -44,6 +44,10 @@ constexpr Hint hints[] = {
 
 }  // namespace
 
+bool is_without_effect(const FitProblem& problem, const Eigen::MatrixXd& derivatives, std::size_t k) {
+  return derivatives.col(static_cast<Index>(k)).head(static_cast<Index>(problem.cells())).norm() < no_effect;
+}
+
 bool is_determined(const FitCovariance& covariance, std::size_t k) {
   const auto at = static_cast<Index>(k);
   return std::sqrt(covariance.covariance(at, at)) < widest &&
@@ -53,17 +57,16 @@ bool is_determined(const FitCovariance& covariance, std::size_t k) {
 std::string why_undetermined(const FitProblem& problem, const Eigen::MatrixXd& derivatives,
                              const FitCovariance& covariance, std::size_t k) {
   const auto at = static_cast<Index>(k);
-  if (derivatives.col(at).head(static_cast<Index>(problem.cells())).norm() < no_effect)
-    return "no recorded column depends on it";
+  if (is_without_effect(problem, derivatives, k)) return "no recorded column depends on it";
   std::string others;
   for (Index n = 0; n < covariance.covariance.cols(); ++n) {
     const double both = std::sqrt(covariance.covariance(at, at) * covariance.covariance(n, n));
     if (n == at || !(std::fabs(covariance.covariance(at, n)) > same_effect * both)) continue;
     others += (others.empty() ? "" : ", ") + problem.parameters()[static_cast<std::size_t>(n)].key;
   }
-  if (others.empty()) return "the bounds are wider than the value";
+  if (others.empty()) return "a change of it moves the recorded columns by less than their noise";
   return "a change of it has the same effect on the recorded columns as one of " + others +
-         "; if one of them is known and fixed, the others follow";
+         "; the others hold for this value";
 }
 
 std::string recording_for(const FitParameter& parameter) {

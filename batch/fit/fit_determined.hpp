@@ -12,6 +12,9 @@ namespace batch {
 
 /// Whether the recordings determine the parameter k: its bounds are less than half as wide as the bounds of
 /// the start value.
+/// Whether the recordings do not depend on unknown k at all.
+bool is_without_effect(const FitProblem& problem, const Eigen::MatrixXd& derivatives, std::size_t k);
+
 bool is_determined(const FitCovariance& covariance, std::size_t k);
 
 /// The reason why the recordings do not determine the parameter k: no cell depends on k, or other parameters

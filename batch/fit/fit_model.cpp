@@ -46,13 +46,11 @@ Probes probes_of(const FitBench& bench, std::size_t index, std::span<const FitPa
   }
   return probes;
 }
+}  // namespace
 
-/// Largest shift of the recording's times during a fit. Rows nearer to the run's ends are not used.
-double margin_s(const FitBench& bench) {
+double FitModel::margin_s(const FitBench& bench) {
   return std::min(2.0 * bench.scenario.pwm.period_s, 0.01 * bench.scenario.duration_s);
 }
-
-}  // namespace
 
 base::Result<FitModel> FitModel::of(const FitBench& bench, std::size_t index) {
   FitModel model;

@@ -20,6 +20,9 @@ struct FitCell {
 /// A bench with its cells, ordered by row. The cells stay the same during the fit.
 class FitModel {
  public:
+  /// Largest move of the recording's times during a fit: the rows nearer to the run's ends are left out.
+  static double margin_s(const FitBench& bench);
+
   /// Problems: a column that the scenario does not have, fewer than ten rows within the simulated time.
   static base::Result<FitModel> of(const FitBench& bench, std::size_t index);
 

@@ -90,6 +90,22 @@ void keep_numbers(study::Trace& log, const study::Scenario& scenario, std::vecto
   }
 }
 
+/// Notes a column whose rows often have its highest or lowest value, as at the end of an instrument's range. A rotor at rest
+/// has the value 0.
+void note_clipping(const study::Trace& log, text::Notes& notes) {
+  for (std::size_t c = 1; c < log.columns.size(); ++c) {
+    const std::vector<double>& x = log.values[c];
+    const auto [low, high] = std::minmax_element(x.begin(), x.end());
+    for (const double end : {*low, *high}) {
+      const auto rows = std::count(x.begin(), x.end(), end);
+      if (end == 0.0 || *low == *high || 10 * rows < static_cast<std::ptrdiff_t>(x.size())) continue;
+      notes.push_back(fmt::format(
+          "{} of {} rows of {} have the column's {} value, {:.6g}; if the instrument's range ends there, the fit is wrong",
+          rows, x.size(), log.columns[c].name, end == *low ? "lowest" : "highest", end));
+    }
+  }
+}
+
 /// Keeps every nth row, so that at most most_rows remain.
 void thin(study::Trace& log, text::Notes& notes) {
   const std::size_t rows = log.values[0].size(), stride = (rows + most_rows - 1) / most_rows;
@@ -139,6 +155,7 @@ base::Result<batch::FitBench> bench_of(const FitArguments& a, const Pair& pair, 
     return base::Problem{pair.log, "no column", "is a number that the scenario's run has",
                          "record a current, a voltage or the speed, or name columns with --columns"};
   text::note_not_used(read->not_used, read->notes);
+  note_clipping(bench.log, read->notes);
   thin(bench.log, read->notes);
   place_in_time(bench, shift_s, read->notes);
   if (!a.quiet)

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "sixstep/base/visitor.hpp"
 #include "sixstep/design/sheet/sheet_description.hpp"
 #include "text/escape/escape.hpp"
@@ -20,7 +23,7 @@ using analysis::FittedValue;
 using Json = nlohmann::ordered_json;
 
 /// Correlation of neighbouring differences from which on the text names it.
-constexpr double usual_correlation = 0.5;
+constexpr double least_correlation = 0.2;
 
 /// Finds the quantity of a sheet's key and its frame.
 class QuantityFinder final : public sixstep::base::Visitor {
@@ -79,7 +82,8 @@ std::string values_section(const Fit& fit, const design::Sheet& sheet) {
 
 std::string undetermined_section(const Fit& fit) {
   if (fit.undetermined.empty()) return "";
-  std::string out = "\n  Not determined by these recordings; the value stays as it was\n";
+  std::string out =
+      "\n  Not determined by these recordings; kept at this value, for which the fitted values hold\n";
   for (const analysis::Undetermined& u : fit.undetermined) {
     out += fmt::format("  {} = {}: {}", fit_name(u.key, u.bench),
                        with_unit(fmt::format("{:.4g}", u.value), u.unit), without_table(u.reason));
@@ -97,7 +101,8 @@ std::string residuals_section(const Fit& fit) {
               quantity_text(c.noise, c.column.unit.c_str()), fmt::format("{:.2f}", c.correlation)});
   std::string out = rows.text();
   for (const analysis::FitColumn& c : fit.columns)
-    if (c.correlation > usual_correlation)
+    if (std::fabs(c.correlation) >
+        std::max(least_correlation, 4.0 / std::sqrt(static_cast<double>(c.t_s.size()))))
       out += fmt::format(
           "  {} of {}: the difference of a row resembles that of the next row (correlation {:.2f}; noise has 0). "
           "Noise alone does not explain it: the scenario differs from the bench, or a parameter is missing\n",

@@ -120,7 +120,7 @@ double best_shift(const Recording& c, const Samples& recorded, const Samples& si
       least = there;
       best = shift;
     }
-    if (step <= 0.25 * recorded.interval_s) return best;
+    if (step <= 0.02 * recorded.interval_s) return best;
     low = best - step;
     high = best + step;
     step /= finer;
@@ -166,6 +166,30 @@ Placing placed(const Recording& c, const Samples& recorded, const Samples& simul
   return out;
 }
 
+namespace {
+
+/// Samples of the simulation per row of the recording. Between two samples the simulation is taken as a line, which cuts the
+/// peaks of a wave of few rows.
+double finer_grid(const LaidOver& laid, const Scenario& scenario) {
+  constexpr double usual = 8.0, most_samples = 1e6;
+  const double window_s = laid.measure.to_s.value_or(scenario.duration_s) - laid.measure.from_s.value_or(0.0);
+  const double rows = window_s / laid.recording.rows->interval_s;
+  return std::clamp(std::floor(most_samples / std::max(rows, 1.0)), 1.0, usual);
+}
+
+/// Noise of the rows: 1.4826 times the median size of their second differences, divided by sqrt(6). Edges are rare, so that
+/// they do not move the median.
+double noise_of(const std::vector<double>& x) {
+  std::vector<double> bends;
+  for (std::size_t n = 1; n + 1 < x.size(); ++n) bends.push_back(std::fabs(x[n - 1] - 2.0 * x[n] + x[n + 1]));
+  if (bends.empty()) return 0.0;
+  const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
+  std::nth_element(bends.begin(), middle, bends.end());
+  return 1.4826 * *middle / std::sqrt(6.0);
+}
+
+}  // namespace
+
 Laying::Laying(const Scenario& scenario) : scenario_(scenario), watched_(scenario.recordings().size()) {}
 
 void Laying::watch(std::vector<GridRecorder>& grids) {
@@ -174,7 +198,7 @@ void Laying::watch(std::vector<GridRecorder>& grids) {
     const std::optional<std::size_t> column = column_of(laid.measure.signal);
     if (!column || !laid.recording.rows) continue;
     Watched& to = watched_[n];
-    const sim::Instant grid = sim::to_instant(laid.recording.rows->interval_s);
+    const sim::Instant grid = sim::to_instant(laid.recording.rows->interval_s / finer_grid(laid, scenario_));
     const double from_s = laid.measure.from_s.value_or(0.0),
                  to_s = laid.measure.to_s.value_or(scenario_.duration_s),
                  factor = all_columns(scenario_.sheet.kind)[*column].per_turning;
@@ -254,6 +278,8 @@ ComparisonResult compared(const LaidOver& laid, const NamedFigure& figure, const
              of_pulses = is_of_pulses(figure.fact->figure);
   const double step = std::abs(p.scale) * c.rows->step;
   Estimate there{0.0, step / std::sqrt(12.0), p.rows}, here{p.rms, 0.0, p.rows};
+  // The rows of a perfect model differ from the recording by the recording's noise.
+  if (distance) there.uncertainty = root_of_squares(there.uncertainty, 1.2 * noise_of(pair.recorded.values));
   if (!distance) {
     const FigureAsked asked{figure, pair.period_s, laid.measure.level.value_or(0.0), c.shortest_s,
                             c.longest_s.value_or(std::numeric_limits<double>::infinity())};

@@ -90,8 +90,9 @@ inline void describe(base::Visitor& v, Recording& s, Signal signal) {
            .range = from(0)});
   v.value(
       "tolerance_percent", s.tolerance_percent,
-      {.meaning = "with file: a figure that is farther off, beyond the uncertainty, fails the run. Without "
-                  "it no comparison does",
+      {.meaning =
+           "with file: a figure that differs by more than this part of the recorded figure, beyond the uncertainty, fails the run; difference_rms: this part of the simulated signal's peak-to-peak value. Without "
+           "it no comparison does",
        .unit = "percent",
        .range = from(0)});
 }
