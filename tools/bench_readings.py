@@ -67,15 +67,29 @@ def speed(r, place):
     return 2 * math.pi * hertz / r.raw("pole_pairs")
 
 
-def friction(r):
-    """(B, T_c) by the power of two no-load points."""
-    points = []
-    for n in range(2):
+def no_load(r):
+    """[(speed, torque)] of the no-load points by their power; two or more."""
+    given, points = r.data.get("no_load"), []
+    for n in range(max(2, len(given)) if isinstance(given, list) else 2):
         amperes, w = r.meter(f"no_load.{n}.shunt_V") / r.shunt(), speed(r, f"no_load.{n}.frequency_Hz")
         points.append((w, (r.meter(f"no_load.{n}.supply_V") * amperes - resistance(r) * amperes**2) / w))
-    (w, T), (w_2, T_2) = points
-    B = (T - T_2) / (w - w_2)
-    return B, T - B * w
+    if len({w for w, _ in points}) == 1:
+        raise Refused(f"no_load.{len(points) - 1}.frequency_Hz = {r.raw('no_load.0.frequency_Hz'):g}: all points have one speed; record another one at half of the voltage")
+    return points
+
+
+def friction(r):
+    """(B, T_c): the line of least squares through the no-load points."""
+    points = no_load(r)
+    w_mean, T_mean = (math.fsum(column) / len(points) for column in zip(*points))
+    B = math.fsum((w - w_mean) * (T - T_mean) for w, T in points) / math.fsum((w - w_mean) ** 2 for w, _ in points)
+    return B, T_mean - B * w_mean
+
+
+def beside_the_line(r):
+    """Torque of each no-load point less that of the line, mNm."""
+    B, T_c = friction(r)
+    return [1e3 * (T - B * w - T_c) for w, T in no_load(r)]
 
 
 def inertia(r):
@@ -119,6 +133,42 @@ def uncertain(text):
     return {key: (x, unit, 2 * math.sqrt(sum(parts[key].values())), parts[key]) for key, (x, unit) in found.items()}
 
 
+def check_line(text):
+    """Refuses points further from the line than the limits of all readings together allow."""
+    plain = Readings(text)
+    beside = beside_the_line(plain)
+    moved = [beside_the_line(Readings(text, {name: 1.0})) for name in plain.errors]
+    allowed = [sum(abs(other[n] - x) for other in moved) for n, x in enumerate(beside)]
+    n = max(range(len(beside)), key=lambda n: abs(beside[n]))
+    if len(beside) > 2 and abs(beside[n]) > allowed[n]:
+        raise Refused(f"no_load.{n}: its friction lies {beside[n]:+.2g} mNm beside the line through all points, and the limits of the readings allow {allowed[n]:.2g} mNm. "
+                      "One of the points is wrong, or the friction is not B w + T_c; read all points again, or give the two that enclose the speeds of use")
+
+
+def check_sign(text, key, x, unit, half, parts):
+    """Refuses a parameter that no motor has. A friction may come out negative by its uncertainty."""
+    if not (math.isfinite(x) and 0 < half < math.inf):
+        raise Refused(f"{key} = {x:.3g} {unit} has an uncertainty of {half:.3g} {unit}, because every limit of its readings is 0 or a reading is out of proportion; give the limits of the instruments")
+    if "friction" not in key:
+        if x <= 0:
+            raise Refused(f"{key} = {x:.3g} {unit} must be above 0; read its recording again, and those of resistance and no load that it uses")
+    elif x < -half:
+        place = max((name for name in parts if "no_load" in name), key=lambda name: parts[name], default="no_load.1.shunt_V").split()[-1]
+        way = "rises too steeply" if "coulomb" in key else "falls"
+        raise Refused(f"{key} = {x:.3g} {unit} is negative by more than its uncertainty of {half:.2g} {unit}: the torque without load {way} with the speed, so that a reading is wrong. "
+                      f"Read the points of no_load again after two minutes of running, first {place} = {Readings(text).printed(place)}")
+
+
+def checked(text):
+    """As uncertain(); refuses what no motor and no bench can show."""
+    rows = uncertain(text)
+    if "viscous_friction_Nm_s" in rows:
+        check_line(text)
+    for key, row in rows.items():
+        check_sign(text, key, *row)
+    return rows
+
+
 def written(x, half):
     """With two digits of the uncertainty."""
     digits = max(0, 1 - math.floor(math.log10(half)))
@@ -129,9 +179,9 @@ def main(words):
     if len(words) != 1:
         sys.exit(__doc__)
     try:
-        rows = uncertain(pathlib.Path(words[0]).read_text(encoding="utf-8"))
-    except ZeroDivisionError:
-        print(f"{words[0]}: a reading that divides is 0, or both no-load points have one speed; see docs/howto/measure-a-motor.md", file=sys.stderr)
+        rows = checked(pathlib.Path(words[0]).read_text(encoding="utf-8"))
+    except (ZeroDivisionError, OverflowError):
+        print(f"{words[0]}: a reading that divides is 0 or out of proportion; see docs/howto/measure-a-motor.md", file=sys.stderr)
         return 2
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, Refused) as problem:
         print(f"{words[0]}: {problem}; docs/howto/measure-a-motor.md shows a complete file", file=sys.stderr)

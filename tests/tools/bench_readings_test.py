@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """bench_readings_test.py PROGRAM: tools/bench_readings.py finds the parameters of drawn and of simulated benches within its bounds."""
+import contextlib
 import csv
+import io
 import math
 import pathlib
 import random
@@ -37,6 +39,25 @@ def replaced(text, **values):
         place = f"{at}{points if at == 'no_load' else ''}_{key}"
         lines.append(f"{key} = {values[place]}" if place in values else line)
     return "\n".join(lines)
+
+
+def shown_values():
+    """{TABLE_KEY: number} of the page's file."""
+    data = tool.tomllib.loads(SHOWN)
+    points = {f"no_load{n}": point for n, point in enumerate(data.pop("no_load"))}
+    return {f"{table}_{key}": x for table, keys in (data | points).items() if isinstance(keys, dict) for key, x in keys.items()}
+
+
+SHOWN_VALUES = shown_values()
+
+
+def called(text):
+    """(exit code, output, messages) of the tool for a file with this text."""
+    out, err = io.StringIO(), io.StringIO()
+    with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        file = pathlib.Path(folder, "r.toml")
+        file.write_text(text, encoding="utf-8")
+        return tool.main([str(file)]), out.getvalue(), err.getvalue()
 
 
 def drawn_bench(draw):
@@ -92,6 +113,45 @@ class Readings(unittest.TestCase):
             self.assertLess(abs(statistics.mean(parts)), 0.12, key)
             self.assertGreater(math.sqrt(statistics.mean(e * e for e in parts)), 1 / 3, key)
 
+    def test_friction_of_three_points(self):
+        """Least squares by the normal equations; the true viscous friction stays within the bounds."""
+        two = tool.Readings(SHOWN)
+        B, T_c = tool.friction(two)
+        for volts, amperes, hertz in (("18.00", "0.0113", "672.4"), ("6.00", "0.0041", "223.0")):
+            more = f"{SHOWN}\n[[no_load]]\nsupply_V = {volts}\nshunt_V = {amperes}\nfrequency_Hz = {hertz}\n"
+            points = tool.no_load(tool.Readings(more))
+            n, x, y = 3, sum(w for w, _ in points), sum(T for _, T in points)
+            xx, xy = sum(w * w for w, _ in points), sum(w * T for w, T in points)
+            slope = (n * xy - x * y) / (n * xx - x * x)
+            found = tool.checked(more)
+            self.assertAlmostEqual(found["viscous_friction_Nm_s"][0] / slope, 1, 9)
+            self.assertAlmostEqual(found["coulomb_friction_mNm"][0], 1e3 * (y - slope * x) / n, 9)
+            self.assertLess(abs(found["viscous_friction_Nm_s"][0] - TRUTH["viscous_friction_Nm_s"]), found["viscous_friction_Nm_s"][2])
+            self.assertNotEqual((B, T_c), tool.friction(tool.Readings(more)), "the third point is used")
+
+    def test_no_range_is_inverted(self):
+        """Whatever is read: 0 <= low <= value <= high, or a refusal that prints no line."""
+        draw, counts = random.Random(20270114), {0: 0, 2: 0}
+        for n in range(600):
+            factors = {place: draw.uniform(0.85, 1.15) if n % 2 else 10 ** draw.uniform(-1, 1) for place in (
+                "no_load0_shunt_V", "no_load1_shunt_V", "no_load0_supply_V", "no_load1_frequency_Hz", "coast_frequency_Hz", "resistance_shunt_V")}
+            text = replaced(SHOWN, **{place: f"{x * SHOWN_VALUES[place]:.4f}" for place, x in factors.items() if draw.random() < 0.5})
+            code, out, err = called(text)
+            counts[code] += 1
+            self.assertEqual(code == 2, out == "" and err.count("\n") == 1, err)
+            lines = re.findall(r"value = (\S+?),.*range = \[(\S+), (\S+)\]", out)
+            self.assertEqual(len(lines), 6 if code == 0 else 0)
+            for value, low, high in lines:
+                self.assertTrue(0 <= float(low) <= float(value) <= float(high), out)
+        self.assertGreater(min(counts.values()), 50, "both ways are tried")
+
+    def test_negative_friction_within_its_uncertainty(self):
+        """The file's value is 0 and the range ends at the upper bound; T_c moves with the reading as the line says."""
+        text = replaced(SHOWN, no_load1_shunt_V="0.0075")
+        x, _, half, _ = tool.checked(text)["coulomb_friction_mNm"]
+        self.assertTrue(-half < x < 0, (x, half))
+        self.assertIn(f"coulomb_friction_mNm = {{ value = 0.00, source = \"bench\", kind = \"measured\", range = [0.00, {x + half:.2f}] }}", called(text)[1])
+
     def test_slope_of_a_frequency(self):
         """Phases of a line over T: the standard error of the slope is sqrt(60)/T times that of the frequency in the middle."""
         draw, count, span = random.Random(7), 400, 0.1
@@ -146,6 +206,35 @@ class Refused(unittest.TestCase):
         self.assertEqual((2, ""), (done.returncode, done.stdout), done.stderr)
         self.assertEqual(1, done.stderr.count("\n"), done.stderr)
         return done.stderr
+
+    def test_negative_friction(self):
+        """A reading that makes a friction negative beyond its uncertainty is named, with its value."""
+        for wrong, key, place in (({"no_load1_shunt_V": "0.0068"}, "coulomb_friction_mNm = -0.5", "no_load.1.shunt_V = 0.0068"),
+                                  ({"no_load1_shunt_V": "0.0180"}, "viscous_friction_Nm_s = -", "no_load."),
+                                  ({"no_load0_shunt_V": "0.0200"}, "coulomb_friction_mNm = -", "no_load.")):
+            message = self.refusal(replaced(SHOWN, **wrong))
+            for words in (key, place, "negative by more than its uncertainty of", "Read the points of no_load again"):
+                self.assertIn(words, message)
+
+    def test_a_third_point_beside_the_line(self):
+        """A wrong point is refused by name. A point of the true line, read with errors inside the limits, never is."""
+        point = "\n[[no_load]]\nsupply_V = 18.00\nshunt_V = {}\nfrequency_Hz = 672.4\n"
+        self.assertIn("no_load.2: its friction lies +", self.refusal(SHOWN + point.format("0.0200")))
+        self.assertIn("beside the line", self.refusal(SHOWN + point.format("0.5")))
+        self.assertIn("no_load.2.shunt_V is missing", self.refusal(SHOWN + "\n[[no_load]]\nsupply_V = 18.00\n"))
+        draw = random.Random(3)
+        for _ in range(100):
+            volts = draw.uniform(4, 22)
+            w, current = volts * 29.2, 0.0
+            for _ in range(30):
+                current = ((7.24e-6 * w + 3e-5) * w + 1.03 * current**2) / volts
+            reading = SHUNT * current + draw.uniform(-1.5e-4, 1.5e-4)
+            tool.checked(f"{SHOWN}\n[[no_load]]\nsupply_V = {volts:.2f}\nshunt_V = {reading:.4f}\nfrequency_Hz = {8 * w / 2 / math.pi:.1f}\n")
+
+    def test_no_limits(self):
+        text = re.sub(r"(percent|digits|kelvin|limit_us|half_width_\w+) = [0-9.]+", r"\1 = 0", SHOWN)
+        self.assertIn("give the limits of the instruments", self.refusal(text))
+        self.assertIn("out of proportion", self.refusal(replaced(SHOWN, no_load0_supply_V="0e400")))
 
     def test_bad_files(self):
         for wrong, words in (({"shunt_ohm": '"0.1"'}, "shunt.ohm = 0.1 must be a number"), ({"resistance_shunt_V": "-0.1"}, "must be a number, at least 0"),
