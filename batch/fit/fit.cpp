@@ -26,7 +26,7 @@ constexpr double approach_noise = 0.01, least_noise = 1e-5;
 class Fitting {
  public:
   explicit Fitting(FitProblem problem)
-      : problem_(std::move(problem)), free_(problem_.parameters().size(), true) {
+      : problem_(std::move(problem)), free_(problem_.parameters().size(), true), given_(free_.size()) {
     solution_.u = Eigen::VectorXd::Zero(static_cast<Index>(free_.size()));
   }
 
@@ -139,6 +139,8 @@ class Fitting {
         out_.undetermined.push_back({p.key, bench_of(p), p.unit, p.start,
                                      why_undetermined(problem_, derivatives_, covariance_, k),
                                      recording_for(p)});
+        for (std::size_t n = 0; n < free_.size(); ++n)
+          if (n != k && free_[n] && is_alike(covariance_, k, n)) given_[n] = p.key;
       }
       solution_.u = problem_.with_frictions_of_inertia(true, solution_.u);
       for (const std::size_t k : held) {
@@ -167,6 +169,7 @@ class Fitting {
                              p.unit,
                              p.start,
                              {0.0, 0.0, p.value(std::max(zero, zero - std::fabs(step) + width))},
+                             given_[k],
                              false,
                              true});
       free_[k] = false;
@@ -188,6 +191,7 @@ class Fitting {
                              p.unit,
                              p.start,
                              {p.value(u), p.value(bounds->low), p.value(bounds->high)},
+                             given_[k],
                              bounds->by_profile,
                              false});
     }
@@ -227,6 +231,7 @@ class Fitting {
   }
   FitProblem problem_;
   std::vector<bool> free_;
+  std::vector<std::string> given_;  ///< FittedValue::given of each unknown
   FitSolution solution_{};
   Eigen::MatrixXd derivatives_;
   FitCovariance covariance_;

@@ -44,6 +44,12 @@ constexpr Hint hints[] = {
 
 }  // namespace
 
+bool is_alike(const FitCovariance& covariance, std::size_t k, std::size_t other) {
+  const auto at = static_cast<Index>(k), n = static_cast<Index>(other);
+  const double both = std::sqrt(covariance.covariance(at, at) * covariance.covariance(n, n));
+  return std::fabs(covariance.covariance(at, n)) > same_effect * both;
+}
+
 bool is_without_effect(const FitProblem& problem, const Eigen::MatrixXd& derivatives, std::size_t k) {
   return derivatives.col(static_cast<Index>(k)).head(static_cast<Index>(problem.cells())).norm() < no_effect;
 }
@@ -60,8 +66,7 @@ std::string why_undetermined(const FitProblem& problem, const Eigen::MatrixXd& d
   if (is_without_effect(problem, derivatives, k)) return "no recorded column depends on it";
   std::string others;
   for (Index n = 0; n < covariance.covariance.cols(); ++n) {
-    const double both = std::sqrt(covariance.covariance(at, at) * covariance.covariance(n, n));
-    if (n == at || !(std::fabs(covariance.covariance(at, n)) > same_effect * both)) continue;
+    if (n == at || !is_alike(covariance, k, static_cast<std::size_t>(n))) continue;
     others += (others.empty() ? "" : ", ") + problem.parameters()[static_cast<std::size_t>(n)].key;
   }
   if (others.empty()) return "a change of it moves the recorded columns by less than their noise";

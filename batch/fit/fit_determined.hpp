@@ -15,6 +15,9 @@ namespace batch {
 /// Whether the recordings do not depend on unknown k at all.
 bool is_without_effect(const FitProblem& problem, const Eigen::MatrixXd& derivatives, std::size_t k);
 
+/// Whether a change of unknown `other` has nearly the same effect as one of unknown k.
+bool is_alike(const FitCovariance& covariance, std::size_t k, std::size_t other);
+
 bool is_determined(const FitCovariance& covariance, std::size_t k);
 
 /// The reason why the recordings do not determine the parameter k: no cell depends on k, or other parameters

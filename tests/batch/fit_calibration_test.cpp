@@ -164,6 +164,7 @@ TEST(FitCalibration, BoundsHoldTheTruthAndAreAsNarrowAsTheNoiseAllows) {
     simulations += found->simulations;
     const std::map<std::string, double> least = least_deviations(drawn, *found);
     for (const analysis::FittedValue& v : found->values) {
+      if (!v.given.empty()) continue;  // it holds for a kept value, which is not the true one
       held.count(v.value.holds(true_value(drawn, v.key, v.bench)), static_cast<std::uint64_t>(seed));
       of_key.try_emplace(v.key, HeldOften(v.key))
           .first->second.count(v.value.holds(true_value(drawn, v.key, v.bench)),

@@ -67,6 +67,7 @@ std::string with_unit(const std::string& number, const std::string& unit) {
 
 std::string note_of(const FittedValue& v) {
   if (v.at_zero) return "upper bound; the best value is not above 0";
+  if (!v.given.empty()) return fmt::format("for the kept {}", without_table(v.given));
   return v.by_profile ? "bounds by the profile" : "";
 }
 
@@ -139,7 +140,8 @@ std::string fit_text(const Fit& fit, const design::Sheet& sheet) {
   std::size_t cells = 0;
   for (const analysis::FitColumn& c : fit.columns) cells += c.t_s.size();
   std::string out =
-      fmt::format("{} values of {} columns, {} simulations\n\n", cells, fit.columns.size(), fit.simulations);
+      fmt::format("{} of {}, {}\n\n", counted(cells, "value"), counted(fit.columns.size(), "column"),
+                  counted(fit.simulations, "simulation"));
   if (!fit.converged)
     out += "NOT CONVERGED: the values are the best of all trials, and the bounds may be too narrow\n\n";
   out += values_section(fit, sheet) + undetermined_section(fit) + "\n" + residuals_section(fit);
@@ -158,6 +160,7 @@ std::string fit_json(const Fit& fit, const design::Sheet& sheet) {
                 {"frame", fit_frame(sheet, v)},
                 {"start", v.start}};
     one.update(interval_json(v.value));
+    one["given"] = v.given;
     one["by_profile"] = v.by_profile;
     one["at_zero"] = v.at_zero;
     out["values"].push_back(std::move(one));

@@ -20,6 +20,7 @@ struct FittedValue {
   std::string unit;
   double start = 0.0;
   Interval value;
+  std::string given{};  ///< key of an undetermined parameter for whose kept value this one holds; empty: none
   bool by_profile = false;  ///< whether the sum of squares is not parabolic within the bounds
   bool at_zero = false;  ///< whether the best value would be negative: the value is 0, the upper bound holds
 };
@@ -51,6 +52,10 @@ struct Fit {
 /// The scenario's sheet in standard keys, with the fitted values of the motor. Each fitted value names its recordings as
 /// its source, and its range is its bounds.
 design::Sheet fitted_sheet(const study::Scenario& scenario, const Fit& fit);
+
+/// Whether the differences of a column are correlated from row to row by more than 0.2 and than noise is: the scenario differs
+/// from the bench, or a parameter is missing.
+bool is_doubtful(const Fit& fit);
 
 /// The key in a motor's file; empty if the value is none of the motor's.
 std::string_view motor_key(const FittedValue& value);

@@ -34,6 +34,7 @@ class SourceWriter final : public base::Visitor {
     for (const FitColumn& column : fit.columns)
       if (std::find(names.begin(), names.end(), column.bench) == names.end()) names.push_back(column.bench);
     for (std::size_t n = 0; n < names.size(); ++n) source_ += (n ? ", " : "") + names[n];
+    if (is_doubtful(fit)) source_ += "; doubtful, the model differs from the recording by more than noise";
   }
 
  private:
@@ -55,6 +56,13 @@ class SourceWriter final : public base::Visitor {
 };
 
 }  // namespace
+
+bool is_doubtful(const Fit& fit) {
+  return std::any_of(fit.columns.begin(), fit.columns.end(), [](const FitColumn& c) {
+    return std::fabs(c.correlation) >
+           std::max(0.2, 4.0 / std::sqrt(static_cast<double>(std::max<std::size_t>(c.t_s.size(), 1))));
+  });
+}
 
 std::string_view motor_key(const FittedValue& value) {
   const std::string_view key = value.key;
