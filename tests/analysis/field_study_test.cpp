@@ -129,27 +129,39 @@ TEST(FieldStudy, TheCircleBoundsSpeedAndCurrent) {
   EXPECT_NEAR(value(f.limits, "w_1"), 0.95 * circle / (K_e - 8 * L * 5), 1e-9);
 }
 
-/// Low-side shunts: of the circle's speed w_0 the part 2 d - 1 for two shunts, (4/sqrt 3)(d - 1/2) for three.
+/// Low-side shunts: of the circle's radius the part 2 d - 1 for two shunts, (4/sqrt 3)(d - 1/2) for three. At the named
+/// speed the largest current needs just this voltage.
 TEST(FieldStudy, LowSideShuntsBoundTheModulation) {
   study::Scenario s = field_oriented(Mode::speed, 600.0);
   s.sensors.currents = rig::CurrentMeasurement::low_side;
   s.sensors.current_range_A = 20.0;
   s.sensors.shunt_settle_s = 2e-6;
   s.bridge.dead_time_s = 0.5e-6;
-  const double d = 1 - 2 * 2.5e-6 / T, w_0 = 24 / std::sqrt(3.0) / K_e;
+  s.control.current.limit_A = 6.0;  // below the current at full torque
+  const double d = 1 - 2 * 2.5e-6 / T, circle = 24 / std::sqrt(3.0);
+  const auto voltage = [](double w, double i) { return std::hypot(w * K_e + R * i, w * 8 * L * i); };
   for (const auto& [shunts, m] : {std::pair{study::ShuntLegs::ab, 2 * d - 1},
                                   std::pair{study::ShuntLegs::abc, 4 / std::sqrt(3.0) * (d - 0.5)}}) {
     s.sensors.shunts = shunts;
-    for (const double asked : {0.98 * m * w_0, 1.02 * m * w_0}) {
+    const double up_to = value(studied(s).limits, "w(m)");
+    for (const double asked : {0.98 * up_to, 1.02 * up_to}) {
       s.reference.value = asked;
       const FieldStudy f = studied(s);
       EXPECT_NEAR(value(f.limits, "d"), d, 1e-12);
       EXPECT_NEAR(value(f.limits, "m"), m, 1e-12);
-      EXPECT_NEAR(value(f.limits, "m w_0"), m * w_0, 1e-9);
+      EXPECT_NEAR(voltage(value(f.limits, "w(m)"), 6.0), m * circle, 1e-9);
       const bool warned = std::any_of(f.warnings.begin(), f.warnings.end(), [](const design::Warning& w) {
         return w.what.find("fewer than two currents") != std::string::npos;
       });
-      EXPECT_EQ(warned, asked > m * w_0) << asked;
+      EXPECT_EQ(warned, asked > up_to) << asked;
+    }
+    study::Scenario by_current = s;
+    by_current.control.mode = Mode::current;
+    by_current.control.speed = {};
+    by_current.control.speed.torque_limit_Nm.reset();
+    for (const double ampere : {0.0, 2.0, -2.0}) {
+      by_current.reference.value = ampere;
+      EXPECT_NEAR(voltage(value(studied(by_current).limits, "w(m)"), std::fabs(ampere)), m * circle, 1e-9);
     }
   }
 }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "sixstep/design/sheet/thermal.hpp"
 #include "sixstep/study/run/run.hpp"
 #include "tests/support/bench.hpp"
 #include "tests/support/figures.hpp"
@@ -247,6 +248,47 @@ TEST(ThermalRemarks, AHotStartReachesTheLimitSooner) {
   passes.fraction = 1.0;
   s.compare = {{passes, 0, "test"}};
   EXPECT_NEAR(*hot, figures_of(s)[0], 0.03 * *hot);
+}
+
+/// Locked without current, and then with `last_A` from `on_s` until the end.
+Scenario loaded_last(double last_A, double on_s, double duration_s) {
+  Scenario s = overload(0.0, on_s, duration_s);
+  s.sheet = slow_sheet();
+  s.reference.values = {0.0, last_A};
+  return s;
+}
+
+/// A current that begins late takes the winding to its limit in the time that the two-body model gives for its loss.
+TEST(ThermalRemarks, ASteadyLossCountsHoweverLateItBegins) {
+  const Scenario whole = loaded_last(8.0, 0.0, 1.0);
+  const auto model = design::thermal_model(whole.sheet);
+  ASSERT_TRUE(model);
+  for (const double on_s : {0.6, 0.83, 0.86, 0.9, 0.92, 0.945}) {
+    const auto limit_s = told(loaded_last(8.0, on_s, 1.0), limit_word);
+    ASSERT_TRUE(limit_s) << on_s;
+    const double ampere = *told(loaded_last(8.0, on_s, 1.0), "as with ");
+    EXPECT_NEAR(ampere, 8.0, 0.05 * 8.0) << "the ripple adds to it, " << on_s;
+    const auto truth_s = design::permissible_seconds(*model, {.copper_W = 1.03 * ampere * ampere});
+    ASSERT_TRUE(truth_s);
+    EXPECT_NEAR(*limit_s - on_s, *truth_s, 0.03 * *truth_s) << on_s;
+    EXPECT_FALSE(is_told(loaded_last(1.0, on_s, 1.0))) << "1 A is less than the nominal current";
+  }
+}
+
+/// A speed drive whose run ends in a run-up: its current ends with it.
+TEST(ThermalRemarks, ALateRunUpIsNotKept) {
+  Scenario s = lift();
+  s.sheet = slow_sheet();
+  s.load.torque_Nm = 0.0;
+  s.load.inertia_kg_m2 = 1e-3;
+  s.duration_s = 0.6;
+  s.reference = {.shape = study::Shape::steps};
+  s.reference.times_s = {0.0, 0.55};
+  s.reference.values = {0.0, 200.0};
+  EXPECT_FALSE(is_told(s));
+  s.load.locked = true;
+  s.reference.values = {0.0, 2000.0};
+  EXPECT_TRUE(is_told(s)) << "the rotor does not turn, and the current stays";
 }
 
 /// The loss decides, whatever asks for the current: a weight on an arm that is too heavy, a weight that runs the motor

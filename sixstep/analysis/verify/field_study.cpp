@@ -31,12 +31,12 @@ double circle_V(const FieldStudy& f) { return f.design.bus_V / std::sqrt(3.0); }
 /// Speed in rad/s at which the magnet's back-EMF equals the radius of the voltage circle.
 double base_speed_rad_s(const FieldStudy& f) { return circle_V(f) / f.simulated.magnet_V_s; }
 
-/// |v|^2 = (R i + w p psi)^2 + (w p L_q i)^2 = U_s^2/3, solved for the speed w; i: current i_q, other symbols
-/// of model.md 7. Returns 0 if R i exceeds the circle's radius.
-double speed_for_current_rad_s(const FieldStudy& f, double i_q_A) {
+/// |v|^2 = (R i + w p psi)^2 + (w p L_q i)^2, solved for the speed w; i: current i_q, other symbols of model.md 7.
+/// Returns 0 if R i exceeds |v|.
+double speed_for_current_rad_s(const FieldStudy& f, double i_q_A, double voltage_V) {
   const design::FieldMachine& m = f.simulated;
   const double e = m.magnet_V_s, x = m.pole_pairs * m.L_q_H * i_q_A, r = m.R_ohm * i_q_A;
-  const double a = e * e + x * x, half_b = r * e, c = r * r - circle_V(f) * circle_V(f);
+  const double a = e * e + x * x, half_b = r * e, c = r * r - voltage_V * voltage_V;
   return c < 0 ? (std::sqrt(half_b * half_b - a * c) - half_b) / a : 0.0;
 }
 
@@ -151,8 +151,8 @@ void add_limits(const control::FieldDriveConfig<double>& c, FieldStudy& f) {
                         f.design.spec.mode == Mode::current ? "the sheet's nominal current"
                                                             : "largest current reference of the speed loop",
                         I, "A"});
-    f.limits.push_back(
-        {"w(i_q)", "highest speed at which the circle drives i_q", speed_for_current_rad_s(f, I), "rad/s"});
+    f.limits.push_back({"w(i_q)", "highest speed at which the circle drives i_q",
+                        speed_for_current_rad_s(f, I, circle_V(f)), "rad/s"});
     f.limits.push_back({"K_q i_q", "torque of this current", I * torque_per_q_A(f.simulated), "N m"});
   }
   if (!(c.weakening.most_A > 0)) return;
@@ -214,23 +214,31 @@ void look_at_bus(const control::FieldDriveConfig<double>& c, double asked_rad_s,
                           "set control.field.weakening_A, or raise supply.voltage_V", false});
 }
 
+/// Largest i_q that the drive may command, A: of a current drive its reference, of another the limit.
+double largest_current_A(const study::Scenario& s, const FieldStudy& f) {
+  return f.design.spec.mode == Mode::current ? study::largest_reference(s) : f.design.nominal_current_A;
+}
+
 /// Adds the window of low-side shunts, and warns if the reference needs a greater modulation than they allow.
 void look_at_low_side(const study::Scenario& s, double asked_rad_s, FieldStudy& f) {
   const std::optional<double> most = study::greatest_modulation(s);
   if (s.sensors.currents != rig::CurrentMeasurement::low_side || !most) return;
-  const double up_to = *most * base_speed_rad_s(f);
+  const double i_q_A = largest_current_A(s, f);
+  const double up_to = speed_for_current_rad_s(f, i_q_A, *most * circle_V(f));
+  const std::string current =
+      "i_q = " + base::three_digits(i_q_A) + " A, the largest " +
+      (f.design.spec.mode == Mode::current ? "reference," : "that the drive commands,");
   f.limits.push_back({"d", "duty up to which a low-side shunt shows its leg's current",
                       study::low_side_of(s).greatest_duty, ""});
   f.limits.push_back({"m", "modulation up to which two legs are shown at every angle", *most, ""});
-  f.limits.push_back({"m w_0", "speed at which the magnet's back-EMF needs this modulation", up_to, "rad/s"});
+  f.limits.push_back({"w(m)", "speed at which " + current + " needs this modulation", up_to, "rad/s"});
   if (asked_rad_s > up_to)
-    f.warnings.push_back(
-        {"the reference is " + base::three_digits(asked_rad_s) + " rad/s, and above " +
-             base::three_digits(up_to) +
-             " rad/s the back-EMF alone needs duties at which the low-side shunts show fewer than two "
-             "currents (" +
-             study::window_keys(s) + ")",
-         "shorten these times, raise supply.voltage_V, or set sensors.shunts = \"abc\"", false});
+    f.warnings.push_back({"the reference is " + base::three_digits(asked_rad_s) + " rad/s, and above " +
+                              base::three_digits(up_to) + " rad/s " + current +
+                              " needs duties at which the low-side shunts show fewer than two currents (" +
+                              study::window_keys(s) + ")",
+                          "shorten these times, raise supply.voltage_V, or set sensors.shunts = \"abc\"",
+                          false});
 }
 
 /// Adds the lag of the estimated speed: w_n^2/(s + w_n)^2 for a tracking loop with damping 1.

@@ -36,17 +36,25 @@ class EndWatch {
   /// A steady loss counts from its beginning. Of another loss the lowest mean counts, over the last half, fifth or tenth.
   /// Empty if the run is too short to tell, or ended early.
   std::optional<Kept> kept() const;
+  /// A steady loss that began in the last fifth, lasts a twentieth of the run at least, and `brief_s`. `rad_s2`: over
+  /// this time.
+  std::optional<Kept> kept_briefly() const;
+  static constexpr double brief_s = 0.019;  ///< 20 ms less the way to the next look
 
  private:
   static constexpr int parts = 20;
+  static constexpr int fine_parts = 8;  ///< of the last tenth
   const Mark& at(int part) const { return marks_[static_cast<std::size_t>(part)]; }
   bool is_whole(const Mark& begin, const Mark& end) const;
   bool steady_from(int part) const;
   std::optional<double> acceleration() const;
+  /// The loss since `begin`, if two of the fine parts since then are whole, and each whole one within a tenth of its mean.
+  std::optional<Kept> steady_since(const Mark& begin, int fine) const;
 
   double duration_s_ = 0.0;
   std::array<Mark, parts + 1> marks_{};  ///< the start, and the first look at or after each twentieth
-  int filled_ = 1;
+  std::array<Mark, fine_parts> fine_{};  ///< the first look at or after each eightieth from nine tenths on
+  int filled_ = 1, fine_filled_ = 0;
   Mark last_{};
 };
 

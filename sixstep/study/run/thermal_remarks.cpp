@@ -55,6 +55,61 @@ std::string limit_words(const Course& of, double end_s, const std::optional<doub
   return more_s ? limit + " at " + at(end_s + *more_s) : "less than " + limit + " for ever";
 }
 
+/// "from t = 0.9 s to the end the winding loses a steady 68.3 W, as with 8.14 A through two phases"; `nominal_A` 0: not
+/// compared.
+std::string loss_words(const GoesOn& on, const Scenario& s, double nominal_A) {
+  const EndWatch::Kept& kept = on.loss;
+  std::string text = "from " + at(kept.since_s) + " to the end the winding loses " +
+                     (kept.steady ? "a steady " : "") + few_digits(kept.copper_W) + " W" +
+                     (kept.steady ? "" : " on average");
+  if (s.heat.motor) text += " (" + few_digits(kept.cold_W) + " W if it were at 25 degC)";
+  text += ", as with " + few_digits(on.equal_A) + " A through two phases";
+  if (nominal_A > 0.0)
+    text += ", " + few_digits(on.equal_A / nominal_A) + " times the nominal current of " +
+            few_digits(nominal_A) + " A";
+  return text;
+}
+
+/// Empty text if the winding withstands the loss; no text if the loss ends with a run-up.
+std::optional<std::string> on_loss(const EndWatch::Kept& kept, const Scenario& s, const WindingWatch& watch,
+                                   const Compiled& c) {
+  constexpr double beyond = 1.05;  // the ripple adds to the loss of a current equal to the nominal one
+  // The motor's own friction warms the housing; the load's warms the load.
+  const design::MotorModel& motor = c.motor;
+  const double R_ohm = 2 * motor.machine.R_ohm, nominal_A = motor.nominal_current_A,
+               w = std::fabs(kept.speed_rad_s);
+  const GoesOn on{.loss = kept,
+                  .equal_A = std::sqrt(kept.cold_W / R_ohm),
+                  .housing_W = (motor.shaft.B_Nm_s * w + motor.shaft.coulomb_Nm) * w};
+  const bool judged = nominal_A > 0.0 && s.control.drive != FirmwareKind::field;
+  // Time to the limit from the run's end, by the worse ends; infinite if the loss is withstood.
+  const auto limit_s = [&](double cold_W) {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    if (watch.worse)
+      return design::permissible_seconds(watch.worse->model, on.heating(s, cold_W), watch.worse->now)
+          .value_or(never);
+    return judged && std::sqrt(cold_W / R_ohm) > beyond * nominal_A ? 0.0 : never;
+  };
+  const double more_s = limit_s(kept.cold_W), run_up = run_up_s(s, on, motor);
+  if (!std::isfinite(more_s)) return std::string();
+  if (std::isfinite(run_up) && (!watch.worse || run_up < more_s) &&
+      !std::isfinite(limit_s(cold_W_after_run_up(on, c))))
+    return std::nullopt;
+  std::string text = loss_words(on, s, judged ? nominal_A : 0.0);
+  if (!watch.worse)
+    return text +
+           "; the sheet has no thermal values that say how long the winding withstands this current; lower the load or the current, or keep it for a short time only";
+  const auto by_values =
+      design::permissible_seconds(watch.values->model, on.heating(s, kept.cold_W), watch.values->now);
+  text += std::string(": ") + (s.heat.motor ? "the winding" : "by the sheet's thermal values it") +
+          " reaches " + degC(watch.values->highest_degC) + " in the run, and if this current goes on, " +
+          (by_values ? "its limit of " : "") + limit_words(*watch.values, s.duration_s, by_values);
+  if (watch.has_worse_ends)
+    text += ";" + std::string(by_ends) + " " + degC(watch.worse->highest_degC) + ", and " +
+            limit_words(*watch.worse, s.duration_s, more_s);
+  return text + "; lower the load or the current, or end it before that time";
+}
+
 }  // namespace
 
 std::string withstood(const design::WithstandTimes& times, double start_degC) {
@@ -81,51 +136,14 @@ std::string on_cold_winding(const Scenario& s, const WindingWatch& watch) {
 }
 
 std::string on_kept_current(const Scenario& s, const WindingWatch& watch, const Compiled& c) {
-  constexpr double beyond = 1.05;  // the ripple adds to the loss of a current equal to the nominal one
   const std::optional<EndWatch::Kept> kept = watch.end.kept();
   if (!kept) return {};
-  // The motor's own friction warms the housing; the load's warms the load.
-  const design::MotorModel& motor = c.motor;
-  const double R_ohm = 2 * motor.machine.R_ohm, nominal_A = motor.nominal_current_A,
-               w = std::fabs(kept->speed_rad_s);
-  const GoesOn on{.loss = *kept,
-                  .equal_A = std::sqrt(kept->cold_W / R_ohm),
-                  .housing_W = (motor.shaft.B_Nm_s * w + motor.shaft.coulomb_Nm) * w};
-  const bool judged = nominal_A > 0.0 && s.control.drive != FirmwareKind::field;
-  // Time to the limit from the run's end, by the worse ends; infinite if the loss is withstood.
-  const auto limit_s = [&](double cold_W) {
-    constexpr double never = std::numeric_limits<double>::infinity();
-    if (watch.worse)
-      return design::permissible_seconds(watch.worse->model, on.heating(s, cold_W), watch.worse->now)
-          .value_or(never);
-    return judged && std::sqrt(cold_W / R_ohm) > beyond * nominal_A ? 0.0 : never;
-  };
-  const double more_s = limit_s(kept->cold_W), run_up = run_up_s(s, on, motor);
-  if (!std::isfinite(more_s)) return {};
-  if (std::isfinite(run_up) && (!watch.worse || run_up < more_s) &&
-      !std::isfinite(limit_s(cold_W_after_run_up(on, c))))
-    return {};
-  const double end_s = s.duration_s;
-  std::string text = "from " + at(kept->since_s) + " to the end the winding loses " +
-                     (kept->steady ? "a steady " : "") + few_digits(kept->copper_W) + " W" +
-                     (kept->steady ? "" : " on average");
-  if (s.heat.motor) text += " (" + few_digits(kept->cold_W) + " W if it were at 25 degC)";
-  text += ", as with " + few_digits(on.equal_A) + " A through two phases";
-  if (judged)
-    text += ", " + few_digits(on.equal_A / nominal_A) + " times the nominal current of " +
-            few_digits(nominal_A) + " A";
-  if (!watch.worse)
-    return text +
-           "; the sheet has no thermal values that say how long the winding withstands this current; lower the load or the current, or keep it for a short time only";
-  const auto by_values =
-      design::permissible_seconds(watch.values->model, on.heating(s, kept->cold_W), watch.values->now);
-  text += std::string(": ") + (s.heat.motor ? "the winding" : "by the sheet's thermal values it") +
-          " reaches " + degC(watch.values->highest_degC) + " in the run, and if the loss goes on, " +
-          (by_values ? "its limit of " : "") + limit_words(*watch.values, end_s, by_values);
-  if (watch.has_worse_ends)
-    text += ";" + std::string(by_ends) + " " + degC(watch.worse->highest_degC) + ", and " +
-            limit_words(*watch.worse, end_s, more_s);
-  return text + "; lower the load or the current, or end it before that time";
+  // A sine is steady for a while at each of its peaks, a square between its steps: neither goes on so.
+  const bool returns = s.reference.shape == Shape::sine || s.reference.shape == Shape::square;
+  const std::optional<EndWatch::Kept> last = returns ? std::nullopt : watch.end.kept_briefly();
+  if (last && last->cold_W > kept->cold_W)
+    if (const std::optional<std::string> text = on_loss(*last, s, watch, c)) return *text;
+  return on_loss(*kept, s, watch, c).value_or("");
 }
 
 }  // namespace sixstep::study

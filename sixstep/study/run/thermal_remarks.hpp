@@ -18,7 +18,7 @@ std::string withstood(const design::WithstandTimes& times, double start_degC);
 std::string on_cold_winding(const Scenario& scenario, const WindingWatch& watch);
 
 /// The copper loss that a drive keeps up at the run's end, the winding's temperature in the run, and the time at which
-/// it reaches its limit if the loss goes on. Empty if the winding withstands the loss, if it ends with a run-up, and
+/// it reaches its limit if this current goes on. Empty if the winding withstands the loss, if it ends with a run-up, and
 /// without both thermal values and a nominal current.
 std::string on_kept_current(const Scenario& scenario, const WindingWatch& watch, const Compiled& compiled);
 

@@ -230,7 +230,7 @@ BY_TEXT = [
     ("docs/explanation/recordings.md", "recorded   simulated", recordings.verdicts), ("docs/explanation/recordings.md", "within +- ", recordings.verdicts),
     ("docs/explanation/recordings.md", " V left of ", recordings.left_over), ("docs/explanation/recordings.md", "halves thirds", recordings.shares),
     ("docs/explanation/recordings.md", "deg late", recordings.late_edges),
-    ("docs/howto/choose-shunts.md", "control periods", shunts.lost), ("docs/howto/choose-shunts.md", "m w_0", shunts.window),
+    ("docs/howto/choose-shunts.md", "control periods", shunts.lost), ("docs/howto/choose-shunts.md", "w(m)", shunts.window),
     ("docs/howto/run-a-firmware", "ms throttle", firmware.course), ("docs/reference/keys/", "| key |", default_in_range),
 ]
 # Messages of the program, which repeat the input or the allowed values.

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Laws of low-side shunts: duty and modulation of their window, by settling, dead time and period of gallery/shunts-*.toml."""
 import re
-from math import pi, sqrt
+from math import hypot, pi, sqrt
 
-from gallery_sheet import K_T, U
+from gallery_sheet import K_T, PAIRS, R, L, U
 from laws import design
 
 D = 1 - 2 * (2 + 0.5) / 50  # both times in us of a period of 50 us
@@ -30,5 +30,7 @@ def lost(test, spot):
 def window(test, spot):
     s = design.steps(spot.text)
     most = 4 / sqrt(3) * (D - 0.5)
-    for name, value in {"d": D, "m": most, "m w_0": most * U / sqrt(3) / E}.items():
+    for name, value in {"d": D, "m": most}.items():
         design.close(test, spot, name, s[name], value, 1e-4)
+    i, w = float(re.search(r"i_q = (\S+) A", spot.text).group(1)), s["w(m)"]
+    design.close(test, spot, "voltage at w(m)", hypot(E * w + R / 2 * i, PAIRS * w * L / 2 * i), most * U / sqrt(3), 1e-4)
