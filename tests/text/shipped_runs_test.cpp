@@ -84,7 +84,7 @@ TEST_P(EveryShippedRun, ObeysTheStandingLaws) {
   EXPECT_EQ(outcome->fault.has_value(),
             misled || (sensorless ? scenario->load.locked : broken.at_s.has_value()));
   const auto named = std::count_if(outcome->notes.begin(), outcome->notes.end(), [](const std::string& note) {
-    return !note.starts_with("measured after the trip");
+    return !note.starts_with("figures measured after the trip");
   });
   if (sensorless)
     EXPECT_EQ(named, broken.at_s ? 1 : 0);

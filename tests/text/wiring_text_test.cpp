@@ -144,7 +144,7 @@ TEST(WiringWords, OfTheRecipeAreItsSteps) {
   EXPECT_EQ(analysis::next_step(WiringDoes::hums), (analysis::Cure{.legs = {1, 0, 2}}));
   EXPECT_THAT(std::string(steps[0].second), HasSubstr("swap any two phase wires"));
   EXPECT_EQ(analysis::next_step(WiringDoes::forward_late), (analysis::Cure{.legs = {1, 2, 0}}));
-  EXPECT_THAT(std::string(steps[1].second), HasSubstr("move all three phase wires by one leg"));
+  EXPECT_THAT(std::string(steps[1].second), HasSubstr("move all phase wires by one leg"));
   EXPECT_EQ(analysis::next_step(WiringDoes::backward),
             (analysis::Cure{.legs = {1, 0, 2}, .pins = {0, 2, 1}}));
   EXPECT_THAT(std::string(steps[2].second),
