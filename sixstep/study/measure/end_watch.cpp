@@ -95,7 +95,7 @@ std::optional<EndWatch::Kept> EndWatch::steady_since(const Mark& begin, int fine
   Accelerations all;
   for (int n = fine; n < fine_parts; ++n) {
     const Mark& from = fine_[static_cast<std::size_t>(n)];
-    const Mark& to = n + 1 < fine_parts ? fine_[static_cast<std::size_t>(n + 1)] : last_;
+    const Mark& to = n + 1 < fine_parts ? fine_[static_cast<std::size_t>(n) + 1] : last_;
     const bool whole = to.t_s - from.t_s > duration_s_ / (20 * fine_parts);
     if (!whole) continue;
     if (!(std::fabs(cold_W(from, to) - mean_W) <= 0.1 * mean_W)) return {};
