@@ -53,7 +53,7 @@ inline void describe_thresholds(base::Visitor& v, Protection& s) {
       "stall_s", s.stall_s,
       {.meaning = "longest time without a Hall edge above stall_current_A", .unit = "s", .range = above(0)});
   v.value("offset_tolerance_A", s.offset_tolerance_A,
-          {.meaning = "offset beyond which a current amplifier counts as defective. Default: 2 % of "
+          {.meaning = "offset beyond which a current amplifier counts as faulty. Default: 2 % of "
                       "sensors.current_range_A",
            .unit = "A",
            .range = above(0)});

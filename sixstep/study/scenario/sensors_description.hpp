@@ -243,7 +243,7 @@ inline void describe(base::Visitor& v, Sensors& s) {
   v.value("watched", s.watched,
           {.meaning =
                "whether the drive stops if a resolver's amplitude or the count at an encoder's index shows a "
-               "defective sensor; false: the drive continues with the faulty signal"});
+               "faulty sensor; false: the drive continues with the faulty signal"});
   v.table("encoder", s.encoder, {.meaning = "lines A, B and Z, where rotor is \"encoder\""});
   v.table("absolute", s.absolute,
           {.meaning = "a code for every angle of the shaft, where rotor is \"absolute\""});
