@@ -24,7 +24,7 @@ test('opens quickly, with verdict and all charts', async () => {
 
 test('the first screen answers, and is one screen', async () => {
   const page = await opened('short.html');
-  for (const question of ['What limits it', 'Gains', 'Current in its step', 'Costs']) {
+  for (const question of ['What limits the drive', 'Gains', 'Current in its step', 'Costs']) {
     const box = await page.locator('.glance h2', {hasText: question}).boundingBox();
     assert.ok(box.y + box.height < 900, question);
   }
